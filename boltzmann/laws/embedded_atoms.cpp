@@ -102,23 +102,29 @@ EmbeddedAtoms::EmbeddedAtoms(std::vector<EmbeddedElement> elements, Tabulate con
     if (error_ <= tolerance || fineness >= finest) break;
   }
   Table const& one = densities.front();
-  knots_ = one.knots();
   first_ = one.first();
   cutoff_ = one.last();
-  intervals_ = one.intervals();
+  // Before the first interval stands one more, of the straight line on which splines go on from there.
+  knots_ = one.knots();
+  knots_.least = knots_.knot(--knots_.first_row);
+  intervals_ = one.intervals() + 1;
+  double const before = knots_.knot(knots_.first_row + 1) - knots_.least;
   std::size_t const lines = count > 1 ? 2 : 1;
   auto all = std::make_shared<std::vector<Line>>(count * count * intervals_ * lines);
-  auto const fill = [&](std::size_t line, int block, Table const& table, std::size_t interval) {
-    std::copy_n(table.coefficients() + 4 * interval, 4, (*all)[line].c + 4 * block);
+  auto const fill = [&](std::size_t line, int block, Table const& table) {
+    double* const c = (*all)[line].c + 4 * block;
+    double const* from = table.coefficients();
+    c[0] = from[0] - before * from[1];
+    c[1] = from[1];
+    for (std::size_t k = 1; k < intervals_; ++k, from += 4) std::copy_n(from, 4, c + 8 * lines * k);
   };
   for (std::size_t a = 0; a < count; ++a)
-    for (std::size_t b = 0; b < count; ++b)
-      for (std::size_t k = 0; k < intervals_; ++k) {
-        std::size_t const line = ((a * count + b) * intervals_ + k) * lines;
-        fill(line, 0, densities[a * count + b], k);
-        fill(line, 1, energies[a * count + b], k);
-        if (count > 1) fill(line + 1, 0, densities[b * count + a], k);
-      }
+    for (std::size_t b = 0; b < count; ++b) {
+      std::size_t const line = (a * count + b) * intervals_ * lines;
+      fill(line, 0, densities[a * count + b]);
+      fill(line, 1, energies[a * count + b]);
+      if (count > 1) fill(line + 1, 0, densities[b * count + a]);
+    }
   lines_ = std::move(all);
 }
 
@@ -132,13 +138,11 @@ EmbeddedTables EmbeddedAtoms::tables() const {
 double EmbeddedAtoms::value(double r, std::size_t a, std::size_t b, int block) const {
   if (!(r < cutoff_)) return 0;
   EmbeddedTables const all = tables();
-  double const inside = all.knots.inside(r * r);
-  std::int64_t const row = all.knots.row(inside);
+  std::int64_t const row = all.knots.row(all.knots.inside(r * r));
   double const* const c = all.rows + static_cast<std::int64_t>(a * elements_.size() + b) * all.pair_stride +
                           (row - all.knots.first_row) * all.line() + 4 * block;
-  double const d = inside - all.knots.knot(row);
-  double const slope = c[1] + d * (2 * c[2] + d * 3 * c[3]);
-  return c[0] + d * (c[1] + d * (c[2] + d * c[3])) + std::min(r * r - all.knots.least, 0.0) * slope;
+  double const d = r * r - all.knots.knot(row);
+  return c[0] + d * (c[1] + d * (c[2] + d * c[3]));
 }
 
 }  // namespace boltzmann

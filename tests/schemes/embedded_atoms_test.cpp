@@ -51,12 +51,13 @@ template <int D>
 struct Case {
   int cells;
   std::array<Boundary, D> kinds;
+  double lattice = spacing;
 };
 
 /// Scheme and loops agree on the energy of each atom and on forces, momenta don't change, the virial is what scaling says.
 template <int D>
 void agrees(Case<D> const& one, bool two_elements) {
-  Sample<D> const sample(one.cells, spacing, shake, one.kinds);
+  Sample<D> const sample(one.cells, one.lattice, shake, one.kinds);
   EmbeddedAtoms const law = two_elements ? alloy() : metal();
   std::size_t const first = two_elements ? sample.places.size() / 3 : sample.places.size();
   auto const kind = [&](std::size_t i) { return i < first ? std::size_t{0} : std::size_t{1}; };
@@ -103,6 +104,34 @@ TEST(EmbeddedAtoms, AgreeWithLoopsInAnySpace) {
   agrees<2>({4, {periodic, periodic}}, true);
   agrees<3>({3, {periodic, open, periodic}}, false);
   agrees<3>({3, {periodic, periodic, reflecting}}, true);
+}
+
+TEST(EmbeddedAtoms, AgreeWithLoopsWhereEachHasAHundredNeighbours) {
+  agrees<3>({6, {open, open, open}, 1.3}, false);
+  agrees<3>({5, {open, open, open}, 1.3}, true);
+}
+
+// Closer than the first distance energies are straight lines in r^2, with the slopes that functions have there.
+TEST(EmbeddedAtoms, GoOnAsStraightLinesWhereTheyAreClose) {
+  auto const law = metal();
+  double const first = law.first(), slope = -2.2 * repulsion(first) / (2 * first);
+  for (double const r : {0.0, 0.3 * first, 0.8 * first})
+    EXPECT_NEAR(law.pair_energy(r), repulsion(first) + slope * (r * r - first * first),
+                1e-3 * std::abs(slope) * r * r + 1e-2);
+  double const r = 0.4 * first, e0 = law.pair_energy(0), rho0 = law.density(0);
+  EXPECT_NEAR((law.pair_energy(r) - e0) / (r * r), (law.pair_energy(2 * r) - e0) / (4 * r * r), 1e-9 * std::abs(slope));
+  EXPECT_NEAR((law.density(r) - rho0) / (r * r), (law.density(2 * r) - rho0) / (4 * r * r), 1e-9);
+  Ensemble<Newton<3>> atoms("atoms", 2);
+  EmbeddedAtomScheme scheme(Box({-9, -9, -9}, {9, 9, 9}), law);
+  scheme.add(atoms);
+  auto const energy = [&](double x) {
+    atoms[1].position = {x, 0, 0};
+    return scheme.measure().potential;
+  };
+  double const h = 1e-3 * r, by_differences = -(energy(r + h) - energy(r - h)) / (2 * h);
+  atoms[1].position = {r, 0, 0};
+  scheme.calculate();
+  EXPECT_NEAR(atoms.influence_on(1)[0], by_differences, 1e-6 * std::abs(by_differences));
 }
 
 TEST(EmbeddedAtoms, SplinesAreTheFunctionsAndEndSmoothly) {

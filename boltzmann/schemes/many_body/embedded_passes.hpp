@@ -1,4 +1,5 @@
-// The passes of embedded atoms over pairs: densities, then forces. Each is a law: what q contributes to p.
+// The passes of embedded atoms over pairs: densities, then forces. Each is a law: what q contributes to p. Both look ahead
+// (over_near.hpp): where the splines of a pair stand is found first.
 #pragma once
 
 #include <boltzmann/laws/embedded_tables.hpp>
@@ -19,61 +20,60 @@ struct AtomDensity {
 template <class Real>
 AtomDensity(Real) -> AtomDensity<Real>;
 
-namespace detail {
-
-/// Where the splines of W pairs stand.
-template <int W>
-class SplinesAt {
- public:
-  using Real = Pack<double, W>;
-
-  /// `alloy`: the elements of the pair choose among those of all.
-  template <bool alloy, class P>
-  [[gnu::always_inline]] static inline SplinesAt of(EmbeddedTables const& tables, P const& p, P const& q,
-                                                    Real const& square) {
-    Real const inside = tables.knots.inside(square);
-    auto const row = tables.knots.row(inside);
-    SplinesAt result;
-    result.rows_ = tables.rows;
-    result.past_ = inside - tables.knots.template knot<W>(row);
-    result.before_ = min(square - tables.knots.least, Real(0.0));
-    if constexpr (alloy) {
-      // Elements of the sentinel are no numbers; what they would choose is masked.
-      Real const pair = p.element * static_cast<double>(tables.elements) + q.element;
-      Real const known = select(pair == pair, pair, Real(0.0));
-      auto const number = __builtin_convertvector(known.native, Bits<W>);
-      result.offsets_ = std::bit_cast<std::array<std::int64_t, W>>(((row - tables.knots.first_row) << 4) +
-                                                                   number * tables.pair_stride);
-    } else {
-      result.offsets_ = std::bit_cast<std::array<std::int64_t, W>>((row - tables.knots.first_row) << 3);
-    }
-    return result;
-  }
-
-  struct Value {
-    Real value, slope;  ///< and d/d(r^2)
-  };
-  [[gnu::always_inline]] inline Value value(int block) const {
-    auto const c = coefficients(block);
-    Real const slope = c[1] + past_ * (2.0 * c[2] + past_ * (3.0 * c[3]));
-    return {c[0] + past_ * (c[1] + past_ * (c[2] + past_ * c[3])) + before_ * slope, slope};
-  }
-
- private:
-  [[gnu::always_inline]] inline std::array<Real, 4> coefficients(int block) const {
-    std::array<Real, 4> c;
-    transpose_block<W>([&](int lane) { return rows_ + offsets_[static_cast<std::size_t>(lane)]; },
-                       static_cast<std::size_t>(4 * block), c.data(), 4);
-    return c;
-  }
-
-  double const* rows_;
-  Real past_, before_;
-  std::array<std::int64_t, W> offsets_;
+/// Where the splines of pairs stand.
+template <class Real>
+struct SplinePlace {
+  Real square;  ///< of the distance
+  Real past;    ///< how far it is past the knot
+  Real offset;  ///< of the coefficients, an integer
 };
 
+/// An atom seen from another one.
+template <int D, class Real = double>
+struct SeenAtom : Particle<D, Real> {
+  Real slope;                 ///< of both; in an alloy, of the one that is seen
+  Real square, past, offset;  ///< as those of SplinePlace
+};
+
+namespace detail {
+
 template <class P>
-using width_of = std::integral_constant<int, std::remove_cvref_t<decltype(std::declval<P>().position[0])>::width>;
+using real_of = std::remove_cvref_t<decltype(std::declval<P>().position[0])>;
+
+/// `alloy`: the elements of the pair choose among the splines of all.
+template <bool alloy, class P, class Place>
+[[gnu::always_inline]] inline void find_splines(EmbeddedTables const& tables, P const& p, P const& q, Place& place) {
+  using Real = real_of<P>;
+  constexpr int W = Real::width;
+  place.square = norm2(q.position - p.position);
+  auto const row = tables.knots.row(tables.knots.inside(place.square));
+  place.past = place.square - tables.knots.template knot<W>(row);
+  auto offset = (row - tables.knots.first_row) << (alloy ? 4 : 3);
+  if constexpr (alloy) {
+    // Elements of the sentinel are no numbers; what they would choose is masked.
+    Real const pair = p.element * static_cast<double>(tables.elements) + q.element;
+    Real const known = select(pair == pair, pair, Real(0.0));
+    offset += __builtin_convertvector(known.native, Bits<W>) * tables.pair_stride;
+  }
+  place.offset = from_bits<W>(offset);
+}
+
+/// Four coefficients of the splines there.
+template <class Place>
+[[gnu::always_inline]] inline auto coefficients(EmbeddedTables const& tables, Place const& place, int block) {
+  using Real = std::remove_cvref_t<decltype(place.offset)>;
+  constexpr int W = Real::width;
+  std::array<Real, 4> c;
+  auto const row = [&](int lane) {
+    std::int64_t offset;
+    __builtin_memcpy(&offset,
+                     reinterpret_cast<char const*>(&place.offset) + sizeof(offset) * static_cast<unsigned>(lane),
+                     sizeof(offset));
+    return tables.rows + offset;
+  };
+  transpose_block<W>(row, static_cast<std::size_t>(4 * block), c.data(), 4);
+  return c;
+}
 
 }  // namespace detail
 
@@ -81,12 +81,18 @@ using width_of = std::integral_constant<int, std::remove_cvref_t<decltype(std::d
 template <bool alloy>
 struct DensityOfAtoms {
   EmbeddedTables known;
+  static constexpr bool looks_ahead = true;
+  template <int D>
+  using Seen = SplinePlace<double>;
 
   template <class P>
-  auto operator()(P const& p, P const& q) const {
-    auto const r = q.position - p.position;
-    using Splines = detail::SplinesAt<detail::width_of<P>::value>;
-    return AtomDensity{Splines::template of<alloy>(known, p, q, dot(r, r)).value(0).value};
+  [[gnu::always_inline]] void look(P const& p, P const& q, SplinePlace<detail::real_of<P>>& seen) const {
+    detail::find_splines<alloy>(known, p, q, seen);
+  }
+  template <class P, class Real>
+  auto operator()(P const&, SplinePlace<Real> const& q) const {
+    auto const c = detail::coefficients(known, q, 0);
+    return AtomDensity{c[0] + q.past * (c[1] + q.past * (c[2] + q.past * c[3]))};
   }
 };
 
@@ -94,21 +100,34 @@ struct DensityOfAtoms {
 template <bool alloy>
 struct ForceOnAtoms {
   EmbeddedTables known;
+  static constexpr bool looks_ahead = true;
+  template <int D>
+  using Seen = SeenAtom<D>;
 
   template <class P>
-  auto operator()(P const& p, P const& q) const {
+  [[gnu::always_inline]] void look(P const& p, P const& q, SeenAtom<P::dimension, detail::real_of<P>>& seen) const {
     auto const r = q.position - p.position;
-    using Splines = detail::SplinesAt<detail::width_of<P>::value>;
-    auto const splines = Splines::template of<alloy>(known, p, q, dot(r, r));
-    auto const pair = splines.value(1);
-    auto const embedding = [&] {
-      auto const at_p = splines.value(0).slope;
+    for (int a = 0; a < P::dimension; ++a) seen.position[a] = r[a];
+    if constexpr (alloy)
+      seen.slope.native = q.slope.native;  // a Pack would be copied through memory
+    else
+      seen.slope = p.slope + q.slope;
+    detail::find_splines<alloy>(known, p, q, seen);
+  }
+  template <class P, int D, class Real>
+  auto operator()(P const& p, SeenAtom<D, Real> const& q) const {
+    auto const pair = detail::coefficients(known, q, 1), density = detail::coefficients(known, q, 0);
+    std::array<Real, 4> of_q{};
+    if constexpr (alloy) of_q = detail::coefficients(known, q, 2);
+    auto const sum = [&](std::size_t k) {
       if constexpr (alloy)
-        return p.slope * at_p + q.slope * splines.value(2).slope;
+        return pair[k] + p.slope * density[k] + q.slope * of_q[k];
       else
-        return (p.slope + q.slope) * at_p;
-    }();
-    return Interaction{r * (2.0 * (pair.slope + embedding)), pair.value};
+        return pair[k] + q.slope * density[k];
+    };
+    Real const d = q.past;
+    Real const slope = sum(1) + d * (2.0 * sum(2) + d * (3.0 * sum(3)));
+    return Interaction{q.position * (2.0 * slope), pair[0] + d * (pair[1] + d * (pair[2] + d * pair[3]))};
   }
 };
 

@@ -3,27 +3,19 @@
 #include <boltzmann/schemes/many_body/bonded_passes.hpp>
 #include <boltzmann/schemes/many_body/embedded_passes.hpp>
 #include <boltzmann/schemes/many_body/many_body_kernels.hpp>
-#include <boltzmann/schemes/pair/over_list.hpp>
+#include <boltzmann/schemes/many_body/over_near.hpp>
 
 namespace boltzmann {
 namespace detail {
 
-/// A pass over lists, by what its law knows.
-template <Pass pass, int W, class P, class Law>
-[[gnu::flatten]] void atom_pass(void const* known, PairTask const& task, std::size_t begin, std::size_t end) {
-  using Known = std::remove_cvref_t<decltype(Law::known)>;
-  Law const law{*static_cast<Known const*>(known)};
-  over_list<pass, W, P, P, Law>(&law, task, begin, end);
-}
-
 template <int W, class P, class SumLaw, class ForceLaw>
 constexpr ManyBodyKernels atom_passes() {
   ManyBodyKernels kernels;
-  kernels.sums = atom_pass<Pass::influence, W, P, SumLaw>;
-  kernels.sums_reversible = atom_pass<Pass::reversible, W, P, SumLaw>;
-  kernels.forces = atom_pass<Pass::influence, W, P, ForceLaw>;
-  kernels.forces_reversible = atom_pass<Pass::reversible, W, P, ForceLaw>;
-  kernels.measure = atom_pass<Pass::measure, W, P, ForceLaw>;
+  kernels.sums = over_near<Pass::influence, true, W, P, SumLaw>;
+  kernels.sums_reversible = over_near<Pass::reversible, true, W, P, SumLaw>;
+  kernels.forces = over_near<Pass::influence, false, W, P, ForceLaw>;
+  kernels.forces_reversible = over_near<Pass::reversible, false, W, P, ForceLaw>;
+  kernels.measure = over_near<Pass::measure, false, W, P, ForceLaw>;
   return kernels;
 }
 

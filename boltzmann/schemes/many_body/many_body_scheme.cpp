@@ -99,12 +99,19 @@ void ManyBodyScheme::find_neighbours() {
   check_box();
   copy_places();
   hood_.refresh(threads());
+  parts_.clear();
+  for (auto const& [begin, end] : hood_.own(hood_.target(list_)))
+    for (std::size_t first = begin; first < end; first += atom_grain)
+      parts_.push_back({first, std::min(first + atom_grain, end)});
 }
 
-PairTask ManyBodyScheme::task() const {
+AtomTask ManyBodyScheme::task() {
   SortedCopy const& copy = hood_.target(list_);
   NeighbourList const& list = hood_.list(list_);
-  PairTask task;
+  near_.resize(copy.owned());
+  near_length_.resize(copy.owned());
+  near_of_part_.resize(std::max(parts_.size(), near_of_part_.size()));
+  AtomTask task;
   task.target = task.source = copy.rows();
   task.targets = copy.owned();
   task.sources = copy.total();
@@ -113,27 +120,54 @@ PairTask ManyBodyScheme::task() const {
   task.row = list.rows();
   task.length = list.lengths(hood_.ring());
   task.cutoff2 = cutoff_ * cutoff_;
+  task.near = near_.data();
+  task.near_length = near_length_.data();
+  task.sentinel = item_of_row(copy.sentinel());
   return task;
 }
 
-void ManyBodyScheme::run(PairKernel kernel, Passes const& passes, PairTask const& task) const {
-  hood_.over_own(hood_.target(list_), atom_grain, threads_for(task.targets, pass_work, threads()),
-                 [&](std::size_t begin, std::size_t end) { kernel(passes.law, task, begin, end); });
+/// For all entries of the rows of a part, and what pads them.
+void ManyBodyScheme::make_room(std::size_t part, AtomTask const& task) {
+  auto const [begin, end] = parts_[part];
+  std::size_t room = 0;
+  for (std::size_t i = begin; i < end; ++i) room += task.length[i] + list_padding;
+  auto& near = near_of_part_[part];
+  if (near.size() < room) near.resize(room);
+  std::uint32_t* next = near.data();
+  for (std::size_t i = begin; i < end; next += task.length[i++] + list_padding) near_[i] = next;
+}
+
+/// Calls function(part) for all parts.
+template <class Function>
+void ManyBodyScheme::over_parts(double work, Function const& function) const {
+  std::size_t const atoms = points_->size();
+  for_stretches(parts_, threads_for(atoms, work, threads()), [&](Stretch const* part, Stretch const* last) {
+    for (; part != last; ++part) function(static_cast<std::size_t>(part - parts_.data()));
+  });
+}
+
+void ManyBodyScheme::run(AtomKernel kernel, Passes const& passes, AtomTask const& task) const {
+  over_parts(pass_work, [&](std::size_t part) { kernel(passes.law, task, parts_[part].begin, parts_[part].end); });
 }
 
 /// What is around each atom, and its answer; `energies`, if asked for, by number.
 void ManyBodyScheme::find_answers(Passes const& passes, double* energies) {
-  PairTask sums = task();
+  AtomTask sums = task();
   sums_.resize(passes.sums * sums.targets);
   answers_.resize(passes.answers * sums.targets);
   sums.influence = sums_.data();
   sums.overwrite = true;
   sums.rounding = 1.5 * 4503599627370496.0 * passes.sum_quantum;
-  run(quantum_ > 0 ? passes.kernels.sums_reversible : passes.kernels.sums, passes, sums);
+  AtomKernel const sum = quantum_ > 0 ? passes.kernels.sums_reversible : passes.kernels.sums;
+  over_parts(pass_work, [&](std::size_t part) {
+    make_room(part, sums);
+    sum(passes.law, sums, parts_[part].begin, parts_[part].end);
+  });
 
   SortedCopy& copy = hood_.copy(*points_);
   std::vector<double> sorted(energies ? sums.targets : 0);
-  hood_.over_own(copy, atom_grain, threads_for(sums.targets, 1, threads()), [&](std::size_t begin, std::size_t end) {
+  over_parts(1, [&](std::size_t part) {
+    auto const [begin, end] = parts_[part];
     answer({end - begin, copy.rows() + row_block * begin, sums_.data() + passes.sums * begin,
             answers_.data() + passes.answers * begin, energies ? sorted.data() + begin : nullptr});
     for (std::size_t n = 0; n < passes.answers; ++n) {
@@ -163,7 +197,7 @@ void ManyBodyScheme::add_influences(double) {
   Passes const passes = this->passes();
   find_answers(passes, nullptr);
   bool const alone = loaded_.size() == 1;
-  PairTask forces = task();
+  AtomTask forces = task();
   forces.order = hood_.target(list_).order();
   forces.influence = (alone ? loaded_.front().ensemble : points_.get())->influence(0);
   forces.overwrite = !alone;
@@ -192,7 +226,7 @@ EnergyAndVirial ManyBodyScheme::measure(double) {
   if (points_->size() > 0) {
     Passes const passes = this->passes();
     find_answers(passes, energies.data());
-    PairTask pairs = task();
+    AtomTask pairs = task();
     pairs.order = hood_.target(list_).order();
     pairs.energy = energies.data();
     pairs.virial = virials.data();
@@ -244,7 +278,9 @@ void ManyBodyScheme::make_reversible(double quantum) {
 }
 
 std::size_t ManyBodyScheme::bytes() const {
-  return points_->bytes() + hood_.bytes() + (sums_.capacity() + answers_.capacity()) * sizeof(double);
+  std::size_t near = near_.capacity() * sizeof(near_[0]) + near_length_.capacity() * sizeof(near_length_[0]);
+  for (auto const& part : near_of_part_) near += part.capacity() * sizeof(part[0]);
+  return points_->bytes() + hood_.bytes() + near + (sums_.capacity() + answers_.capacity()) * sizeof(double);
 }
 
 std::string ManyBodyScheme::report() const {

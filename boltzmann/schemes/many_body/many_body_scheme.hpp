@@ -82,8 +82,11 @@ class ManyBodyScheme : public Scheme {
   void copy_places();
   void find_neighbours();
   void find_answers(Passes const& passes, double* energies);
-  PairTask task() const;
-  void run(PairKernel kernel, Passes const& passes, PairTask const& task) const;
+  AtomTask task();
+  void make_room(std::size_t part, AtomTask const& task);
+  template <class Function>
+  void over_parts(double work, Function const& function) const;
+  void run(AtomKernel kernel, Passes const& passes, AtomTask const& task) const;
   void add_to_ensembles();
 
   double cutoff_, quantum_ = 0;
@@ -95,6 +98,11 @@ class ManyBodyScheme : public Scheme {
   std::size_t list_ = 0;
   std::vector<Loaded> loaded_;
   std::vector<double> sums_, answers_;  // in the order of rows
+  std::vector<Stretch> parts_;          // of the rows, each for one thread
+  // Who is near, as the first pass notes it: memory of each part, where a row's begins there and how many there are.
+  std::vector<std::vector<std::uint32_t>> near_of_part_;
+  std::vector<std::uint32_t*> near_;
+  std::vector<std::uint32_t> near_length_;
 };
 
 }  // namespace boltzmann
