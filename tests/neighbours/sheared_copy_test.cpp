@@ -54,7 +54,7 @@ struct Gas {
       box.apply(*ensemble);
     }
   }
-  /// Calls function(image, up) for the images of a position in the box and around it.
+  /// Calls function(image, up) for the images of a position that are in the box or less than 1 outside, which lists reach.
   template <class Function>
   void each_image(Vector<D> const& x, Function const& function) const {
     int const f = shear.flow, g = shear.gradient, third = D == 3 ? 3 - f - g : f;
@@ -66,7 +66,9 @@ struct Gas {
           image[f] += up * shear.rate * box.length(g) * time;
           image[f] += box.length(f) * (along - std::floor((image[f] - box.low(f)) / box.length(f)));
           image[third] += other * box.length(third);
-          if (image[g] > box.low(g) - 1 && image[g] < box.high(g) + 1) function(image, up);
+          bool reached = true;
+          for (int a = 0; a < D; ++a) reached = reached && image[a] > box.low(a) - 1 && image[a] < box.high(a) + 1;
+          if (reached) function(image, up);
         }
   }
   Pairs near(Ensemble<Newton<D>>& a, Ensemble<Newton<D>>& b, double cutoff) const {

@@ -426,7 +426,7 @@ void expect_softened_ewald(double softening, double tolerance) {
   scheme.calculate();
   auto const ewald = ewald_sums<D>(all, strengths, edges, bare.constant);
   double errors = 0, squares = 0, differences = 0;
-  for (std::size_t i = 0; i < count; ++i) {
+  for (std::size_t i = 0; i < count; i += 5) {  // of either sign: five hundred tell the mean to 5 %
     Vector<D> difference{};
     auto other = charges[0];
     for (std::size_t j = 0; j < count; ++j)

@@ -75,10 +75,10 @@ class PageReader {
     asked_next_ = true;
   }
 
-  /// Updates until one says so, for ten seconds at most.
+  /// Updates until one says so, for two minutes at most, on a machine that does much else.
   template <class Condition>
   WireMessage until(Condition condition) {
-    auto const end = std::chrono::steady_clock::now() + std::chrono::seconds(10);
+    auto const end = std::chrono::steady_clock::now() + std::chrono::seconds(120);
     for (;;) {
       WireMessage message = update();
       if (condition(message.head)) return message;

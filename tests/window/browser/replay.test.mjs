@@ -77,7 +77,8 @@ test("STEP, PLAY, REWD, STOP and the speed", async (t) => {
   const begun = Date.now();
   await pastFrame(page, 6);
   const [least, most] = [pressed, begun].map((from) => (Date.now() - from) / 1000).reverse();
-  assert.ok(most > 0.7 && least < 4, `${least} to ${most} s for 4 to 5 frames at 5 a second`);
+  const went = page.wire.update.frame - 2; // more than 4 if a slow machine looks late
+  assert.ok((went + 1) / most < 7 && went / least > 1, `${least} to ${most} s for ${went} to ${went + 1} frames at 5 a second`);
   await page.click("#stop");
   await until(() => page.wire.update.state === "paused", "it stands");
   await page.selectOption("#replay-speed", "60");
