@@ -100,12 +100,15 @@ struct Reader {
 bool add_near(std::vector<Place> const& places, std::vector<Seen> const& inner, std::vector<Seen> const& outer,
               double square, std::vector<Near>& near) {
   for (auto const& place : places)
-    for (auto const& a : inner) {
-      if (a.turns != 0 && place[0].low == -infinite) continue;  // it is as far from all images
-      for (auto const& b : outer) {
-        if (b.turns != 0 && place[1].low == -infinite) continue;
+    for (auto const& b : outer) {
+      double const across = place[1].distance(b.at);
+      if (across * across > square) continue;
+      if (b.turns != 0 && place[1].low == -infinite) continue;  // it is as far from all images
+      for (auto const& a : inner) {
+        if (a.turns != 0 && place[0].low == -infinite) continue;
+        if (distance2(place, {a.at, b.at}) > square) continue;
         if (furthest2(place, {a.at, b.at}) <= square) return true;
-        if (distance2(place, {a.at, b.at}) <= square) near.push_back({place, {a.turns, b.turns}});
+        near.push_back({place, {a.turns, b.turns}});
       }
     }
   return false;
@@ -376,6 +379,8 @@ void Neighbourhood::build_part(Sorting const& one, std::vector<std::uint32_t> co
   auto places = one.read_at[rank];
   if (!one.read_by_itself)  // but it is asked who is near a place
     for (auto const& place : one.places_of(rank)) places.push_back(place);
+  // Most are found near whole lines, if these are asked first.
+  std::stable_partition(places.begin(), places.end(), [](Place const& place) { return place[0].low == -infinite; });
   part.near = [places = std::move(places), axes = one.axes(), dimension = one.dimension,
                square = one.wide * one.wide](double const* x) {
     return std::any_of(places.begin(), places.end(),

@@ -235,12 +235,13 @@ void SortedCopy::only(std::vector<Stretch> const& own, std::vector<Stretch> cons
   others_ = others;
   largest2_.assign(pieces_.size(), 0.0);
   images_of_.clear();
+  constexpr std::size_t few = 4;  // that nobody reads cost less than another stretch
   for (std::size_t g = 0; g < ghost_source_.size(); ++g) {
     if (!read[owned() + 1 + g]) continue;
-    bool const goes_on = !images_of_.empty() && images_of_.back().end == g &&
+    bool const goes_on = !images_of_.empty() && images_of_.back().end + few >= g &&
                          images_of_.back().end - images_of_.back().begin < refresh_grain;
     if (goes_on)
-      ++images_of_.back().end;
+      images_of_.back().end = g + 1;
     else
       images_of_.push_back({g, g + 1});
   }
