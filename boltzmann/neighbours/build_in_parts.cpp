@@ -4,6 +4,7 @@
 // The order of rows is that of cells, and cells run along the first axis fastest. So a rank's share is a run of grid
 // lines (in 1D of cells): here *units*, of which every rank knows how many particles each has. What others need of a
 // unit is then geometry.
+#include <boltzmann/boundaries/interior.hpp>
 #include <boltzmann/neighbours/neighbourhood.hpp>
 
 #include <algorithm>
@@ -52,34 +53,65 @@ double distance2(Place const& a, Place const& b) {
   return square;
 }
 
+/// Of a position, which is told apart along these of its axes.
+double distance2(Place const& a, std::array<int, 2> const& axes, int dimension, double const* x) {
+  double square = 0;
+  for (int n = 0; n < 2 && axes[n] < dimension; ++n) {
+    double const out = a[n].distance({x[axes[n]], x[axes[n]]});
+    square += out * out;
+  }
+  return square;
+}
+
 double furthest2(Place const& a, Place const& b) {
   double square = 0;
   for (int n = 0; n < 2; ++n) square += a[n].furthest(b[n]) * a[n].furthest(b[n]);
   return square;
 }
 
-/// Whether some of what is in one of these intervals along each axis is within a distance of a place, and all of it.
-std::pair<bool, bool> within(std::vector<Place> const& places, std::vector<Interval> const& inner,
-                             std::vector<Interval> const& outer, double square) {
-  bool some = false, all = false;
-  for (auto const& place : places)
-    for (auto const& a : inner)
-      for (auto const& b : outer) {
-        some = some || distance2(place, {a, b}) <= square;
-        all = all || furthest2(place, {a, b}) <= square;
-      }
-  return {some, all};
-}
-
-/// Where an interval along an axis is seen.
-std::vector<Interval> images_of(Images const& images, int axis, double reach, Interval const& x) {
-  std::vector<Interval> all{x};
+/// Where an interval along an axis is seen, and by how many turns of images.
+struct Seen {
+  int turns;
+  Interval at;
+};
+std::vector<Seen> images_of(Images const& images, int axis, double reach, Interval const& x) {
+  std::vector<Seen> all{{0, x}};
   for (int turn = 1, most = images.most(axis, reach); turn <= most; ++turn)
     for (int const sign : {-1, 1}) {
       double const low = images.at(axis, sign * turn, x.low), high = images.at(axis, sign * turn, x.high);
-      all.push_back({std::min(low, high), std::max(low, high)});
+      all.push_back({sign * turn, {std::min(low, high), std::max(low, high)}});
     }
   return all;
+}
+
+/// A place that images of a unit's particles, by these turns along the axes, may be near to.
+struct Near {
+  Place place;
+  std::array<int, 2> turns;
+};
+/// Who reads particles of a unit: all of them, or those that come near.
+struct Reader {
+  std::size_t rank;
+  bool all;
+  std::vector<Near> near;
+};
+
+/// Adds what is near of these places. True if they are within the distance of all that is in the unit.
+bool add_near(std::vector<Place> const& places, std::vector<Seen> const& inner, std::vector<Seen> const& outer,
+              double square, std::vector<Near>& near) {
+  for (auto const& place : places)
+    for (auto const& b : outer) {
+      double const across = place[1].distance(b.at);
+      if (across * across > square) continue;
+      if (b.turns != 0 && place[1].low == -infinite) continue;  // it is as far from all images
+      for (auto const& a : inner) {
+        if (a.turns != 0 && place[0].low == -infinite) continue;
+        if (distance2(place, {a.at, b.at}) > square) continue;
+        if (furthest2(place, {a.at, b.at}) <= square) return true;
+        near.push_back({place, {a.turns, b.turns}});
+      }
+    }
+  return false;
 }
 
 /// What all ranks have to agree on.
@@ -114,13 +146,17 @@ bool is_folded(Grid const& grid, Bounds const& bounds) {
 /// One sorted copy, and what all ranks know of its rows.
 struct Neighbourhood::Sorting {
   SortedCopy* copy;
-  std::vector<std::uint32_t> own;  ///< numbers of this rank's particles before, ascending
-  std::vector<double> references;  ///< theirs
+  std::vector<std::uint32_t> own;   ///< numbers of this rank's particles before, ascending
+  std::vector<double> references;   ///< theirs
+  std::vector<std::uint32_t> unit;  ///< in which each of them is
   Extents extents = nothing();
   Grid grid, cells;  ///< that sorts rows, and that lists are found with
   int dimension = 1;
-  std::vector<std::size_t> start;  ///< the first row of each unit, and one more
-  std::vector<std::size_t> cut;    ///< the first row of each rank, and one more
+  std::vector<std::size_t> start;           ///< the first row of each unit, and one more
+  std::vector<std::size_t> cut;             ///< the first row of each rank, and one more
+  std::vector<std::vector<Place>> read_at;  ///< of each rank: where those are whose lists are of these rows
+  double wide = 0;                          ///< from how far
+  bool read_by_itself = false;
 
   std::array<int, 2> axes() const { return dimension == 1 ? std::array{0, 1} : std::array{1, 2}; }
   std::int64_t along(int n) const { return axes()[n] < dimension ? grid.count[axes()[n]] : 1; }
@@ -186,6 +222,7 @@ void Neighbourhood::agree_on_extents(std::vector<Sorting>& all, double reach) {
     one.references = one.copy->references_of(one.own);
     one.dimension = box_->dimension();
     Images const images(*box_);
+    Interior const interior(*box_, box_->edges(), reach);
     auto const take = [&](Bounds& extent, double const* x) {
       for (int a = 0; a < one.dimension; ++a)
         extent.low[a] = std::min(extent.low[a], x[a]), extent.high[a] = std::max(extent.high[a], x[a]);
@@ -193,11 +230,16 @@ void Neighbourhood::agree_on_extents(std::vector<Sorting>& all, double reach) {
     for (std::size_t n = 0; n < one.own.size(); ++n) {
       double const* const x = one.references.data() + n * static_cast<std::size_t>(one.dimension);
       take(one.extents.rows, x);
+      if (interior.holds(x)) continue;
       images.each(x, reach, [&](Turns const& turns, auto const& at) {
+        if (turns == Turns{}) return;
         take(one.extents.images, at.data());
-        if (turns != Turns{}) ++one.extents.count;
+        ++one.extents.count;
       });
     }
+    if (one.own.empty()) continue;
+    take(one.extents.images, one.extents.rows.low.data());
+    take(one.extents.images, one.extents.rows.high.data());
   }
   Team& team = division_->team();
   team.meet(Team::Occasion::gathers);
@@ -223,11 +265,14 @@ bool Neighbourhood::agree_on_order(std::vector<Sorting>& all, double reach) {
     one.cells = Cells::grid_for(one.dimension, extents.images, size + static_cast<std::size_t>(extents.count), reach);
     if (is_folded(one.grid, extents.rows)) return false;
   }
-  for (auto const& one : all) {
+  for (auto& one : all) {
     std::size_t const at = counts.size();
     counts.resize(at + one.units());
-    for (std::size_t n = 0; n < one.own.size(); ++n)
-      ++counts[at + one.unit_of(one.references.data() + n * static_cast<std::size_t>(one.dimension))];
+    for (std::size_t n = 0; n < one.own.size(); ++n) {
+      std::size_t const unit = one.unit_of(one.references.data() + n * static_cast<std::size_t>(one.dimension));
+      one.unit.push_back(static_cast<std::uint32_t>(unit));
+      ++counts[at + unit];
+    }
   }
   division_->team().sum(counts);
   auto next = counts.begin();
@@ -240,28 +285,30 @@ bool Neighbourhood::agree_on_order(std::vector<Sorting>& all, double reach) {
   return true;
 }
 
-/// To which ranks this rank's particles go: those that advance them or read them.
-std::vector<std::vector<std::uint32_t>> Neighbourhood::readers(std::vector<Sorting> const& all, std::size_t e,
-                                                               double reach) const {
-  Sorting const& one = all[e];
-  auto const ranks = static_cast<std::size_t>(division_->team().size());
-  double const wide = reach * (1 + rounding) + margin(), wide2 = wide * wide;
-  std::vector<std::vector<Place>> places(ranks);
-  for (std::size_t t = 0; t < all.size(); ++t) {
-    bool const in_list = std::any_of(lists_.begin(), lists_.end(), [&](List const& list) {
-      return list.target == all[t].copy && list.source == one.copy;
-    });
-    for (std::size_t r = 0; in_list && r < ranks; ++r)
-      for (auto const& place : all[t].places_of(r)) places[r].push_back(place);
+/// Where rows are read, and from how far until the next build: those that get new references in between have gone no
+/// further than the margin, or all ranks come to know all.
+void Neighbourhood::find_who_reads(std::vector<Sorting>& all, double reach) const {
+  for (auto& source : all) {
+    source.wide = reach * (1 + rounding) + margin();
+    source.read_at.resize(static_cast<std::size_t>(division_->team().size()));
+    for (auto const& target : all) {
+      bool const in_list = std::any_of(lists_.begin(), lists_.end(), [&](List const& list) {
+        return list.target == target.copy && list.source == source.copy;
+      });
+      source.read_by_itself = source.read_by_itself || (in_list && target.copy == source.copy);
+      for (std::size_t r = 0; in_list && r < source.read_at.size(); ++r)
+        for (auto const& place : target.places_of(r)) source.read_at[r].push_back(place);
+    }
   }
+}
+
+/// To which ranks this rank's particles go: those that advance them or read them.
+std::vector<std::vector<std::uint32_t>> Neighbourhood::readers(Sorting const& one) const {
+  auto const ranks = static_cast<std::size_t>(division_->team().size());
   Images const images(*box_);
   auto const axes = one.axes();
   auto const seen = [&](int n, Interval const& x) {
-    return axes[n] < one.dimension ? images_of(images, axes[n], wide, x) : std::vector{x};
-  };
-  struct Reader {
-    std::size_t rank;
-    bool all;  // reads every particle of the unit
+    return axes[n] < one.dimension ? images_of(images, axes[n], one.wide, x) : std::vector<Seen>{{0, x}};
   };
   auto const readers_of = [&](std::size_t unit) {
     std::vector<Reader> readers;
@@ -270,10 +317,11 @@ std::vector<std::vector<std::uint32_t>> Neighbourhood::readers(std::vector<Sorti
     auto const n = one.along(0), at = static_cast<std::int64_t>(unit);
     auto const inner = seen(0, one.cells_along(0, at % n, at % n)), outer = seen(1, one.cells_along(1, at / n, at / n));
     for (std::size_t r = 0; r < ranks; ++r) {
-      auto const [near, all] = within(places[r], inner, outer, wide2);
       // Whose a particle is in a unit that is cut is known to those who have the whole unit.
       bool const owns = r >= first && r <= last;
-      if (owns || near) readers.push_back({r, owns || all || first != last});
+      std::vector<Near> near;
+      bool const all = add_near(one.read_at[r], inner, outer, one.wide * one.wide, near);
+      if (owns || all || !near.empty()) readers.push_back({r, owns || all || first != last, std::move(near)});
     }
     return readers;
   };
@@ -281,23 +329,18 @@ std::vector<std::vector<std::uint32_t>> Neighbourhood::readers(std::vector<Sorti
   std::vector<std::vector<std::uint32_t>> to(ranks);
   for (std::size_t k = 0; k < one.own.size(); ++k) {
     double const* const x = one.references.data() + k * static_cast<std::size_t>(one.dimension);
-    std::size_t const unit = one.unit_of(x);
+    std::size_t const unit = one.unit[k];
     auto& readers = of_unit[unit];
     if (readers.empty()) readers = readers_of(unit);
-    for (Reader const& reader : readers) {
-      auto const& there = places[reader.rank];
-      bool reads = reader.all;
-      if (!reads)
-        images.each(x, wide, [&](Turns const&, auto const& at) {
-          if (reads) return;
-          Place here;
-          for (int n = 0; n < 2; ++n) here[n] = {at[axes[n] % 3], at[axes[n] % 3]};
-          if (one.dimension < 3) here[1] = {0, 0};
-          reads = std::any_of(there.begin(), there.end(),
-                              [&](Place const& place) { return distance2(place, here) <= wide2; });
-        });
-      if (reads) to[reader.rank].push_back(one.own[k]);
-    }
+    auto const is_near = [&](Near const& near) {
+      std::array<double, 3> at{};
+      for (int n = 0; n < 2 && axes[n] < one.dimension; ++n)
+        at[axes[n]] = images.at(axes[n], near.turns[n], x[axes[n]]);
+      return distance2(near.place, axes, one.dimension, at.data()) <= one.wide * one.wide;
+    };
+    for (Reader const& reader : readers)
+      if (reader.all || std::any_of(reader.near.begin(), reader.near.end(), is_near))
+        to[reader.rank].push_back(one.own[k]);
   }
   return to;
 }
@@ -311,25 +354,38 @@ void Neighbourhood::build_part(Sorting const& one, std::vector<std::uint32_t> co
   Cells const sorted(one.grid, at.data(), D, numbers.size(), one.copy->sorting_reach(reach, box_->edges()), threads);
   SortedCopy::Part part;
   part.grid = one.cells;
-  part.particles.reserve(numbers.size());
-  part.rows.reserve(numbers.size());
-  part.references.reserve(at.size());
+  part.particles.resize(numbers.size());
+  part.rows.resize(numbers.size());
+  part.references.resize(at.size());
   auto& owners = division_->owners_here(one.copy->ensemble());
   Numbers own(one.copy->ensemble().size());
-  std::size_t row = 0, last = one.units();
-  for (auto const n : sorted.items()) {
-    std::uint32_t const i = numbers[n];
-    double const* const x = at.data() + D * n;
-    std::size_t const unit = one.unit_of(x);
-    row = unit == last ? row + 1 : one.start[unit];
-    last = unit;
-    part.particles.push_back(i);
-    part.rows.push_back(static_cast<std::uint32_t>(row));
-    part.references.insert(part.references.end(), x, x + D);
-    std::size_t const owner = one.rank_at(row);
-    owners[i] = static_cast<std::uint16_t>(owner);
-    if (owner == rank) own.add(i);
-  }
+  std::size_t const cells_of_unit = one.dimension == 1 ? 1 : static_cast<std::size_t>(one.grid.count[0]);
+  std::size_t owner = 0;
+  for (std::size_t unit = 0, n = 0; n < numbers.size(); ++unit)
+    for (std::size_t row = one.start[unit], end = sorted.start()[(unit + 1) * cells_of_unit]; n < end; ++n, ++row) {
+      std::size_t const item = sorted.items()[n];
+      std::uint32_t const i = numbers[item];
+      while (row >= one.cut[owner + 1]) ++owner;
+      part.particles[n] = i;
+      part.rows[n] = static_cast<std::uint32_t>(row);
+      double const* const from = at.data() + D * item;
+      double* const to = part.references.data() + D * n;
+      to[0] = from[0];
+      if (D > 1) to[1] = from[1];
+      if (D > 2) to[2] = from[2];
+      owners[i] = static_cast<std::uint16_t>(owner);
+      if (owner == rank) own.add(i);
+    }
+  auto places = one.read_at[rank];
+  if (!one.read_by_itself)  // but it is asked who is near a place
+    for (auto const& place : one.places_of(rank)) places.push_back(place);
+  // Most are found near whole lines, if these are asked first.
+  std::stable_partition(places.begin(), places.end(), [](Place const& place) { return place[0].low == -infinite; });
+  part.near = [places = std::move(places), axes = one.axes(), dimension = one.dimension,
+               square = one.wide * one.wide](double const* x) {
+    return std::any_of(places.begin(), places.end(),
+                       [&](Place const& place) { return distance2(place, axes, dimension, x) <= square; });
+  };
   own_[e].clear();
   if (one.cut[rank] < one.cut[rank + 1]) own_[e].push_back({one.cut[rank], one.cut[rank + 1]});
   division_->take(one.copy->ensemble(), own.ascending());
@@ -348,10 +404,11 @@ bool Neighbourhood::build_in_parts(int threads) {
   }
   agree_on_extents(all, reach);
   if (!agree_on_order(all, reach)) return false;
+  find_who_reads(all, reach);
   for (std::size_t e = 0; e < copies_.size(); ++e) {
     AnyEnsemble const& ensemble = copies_[e].ensemble();
     Numbers known(ensemble.size());
-    for (auto const& numbers : division_->hand_over(ensemble, readers(all, e, reach)))
+    for (auto const& numbers : division_->hand_over(ensemble, readers(all[e])))
       for (auto const i : numbers) known.add(i);
     build_part(all[e], known.ascending(), e, reach, threads);
   }

@@ -14,6 +14,15 @@ namespace {
 constexpr double first_edge = 0.25, other_edge = 0.5;
 constexpr std::size_t points_per_task = 2048;  // points
 
+/// Of each of these points, in a grid of D dimensions.
+template <int D>
+void find_cells(Grid const& of, double const* rows, std::size_t stride, std::size_t begin, std::size_t end,
+                std::uint32_t* cell) {
+  Grid grid = of;  // known to nobody else, so that it stays in registers
+  grid.dimension = D;
+  for (std::size_t i = begin; i < end; ++i) cell[i] = static_cast<std::uint32_t>(grid.cell_of(rows + i * stride));
+}
+
 }  // namespace
 
 Bounds Bounds::of(int dimension, double const* rows, std::size_t stride, std::size_t count) {
@@ -56,18 +65,19 @@ Grid Cells::grid_for(int dimension, Bounds const& extent, std::size_t count, dou
 
 Cells::Cells(Grid const& grid, double const* rows, std::size_t stride, std::size_t count, double reach, int threads)
     : grid_(grid), reach_(reach) {
-  start_.assign(grid_.cells() + 1, 0);
+  start_.assign(grid_.cells() + 2, 0);
   items_.resize(count);
   std::vector<std::uint32_t> cell(count);
   for_ranges(count, points_per_task, threads, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) cell[i] = static_cast<std::uint32_t>(grid_.cell_of(rows + i * stride));
+    auto const find = grid_.dimension == 1 ? find_cells<1> : grid_.dimension == 2 ? find_cells<2> : find_cells<3>;
+    find(grid_, rows, stride, begin, end, cell.data());
   });
-  for (std::size_t i = 0; i < count; ++i) ++start_[cell[i] + 1];
-  for (std::size_t c = 1; c < start_.size(); ++c) start_[c] += start_[c - 1];
-  // start_[c] runs through the places of cell c, and ends where cell c + 1 begins.
-  for (std::size_t i = 0; i < count; ++i) items_[start_[cell[i]]++] = static_cast<std::uint32_t>(i);
-  for (std::size_t c = start_.size() - 1; c > 0; --c) start_[c] = start_[c - 1];
-  start_[0] = 0;
+  for (std::size_t i = 0; i < count; ++i) ++start_[cell[i] + 2];
+  std::uint32_t before = 0;
+  for (auto& start : start_) start = before += start;
+  // start_[c + 1] runs through the places of cell c, and ends where cell c + 1 begins.
+  for (std::size_t i = 0; i < count; ++i) items_[start_[cell[i] + 1]++] = static_cast<std::uint32_t>(i);
+  start_.pop_back();
 }
 
 }  // namespace boltzmann

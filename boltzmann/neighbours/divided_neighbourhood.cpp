@@ -151,15 +151,20 @@ std::size_t Neighbourhood::take_work(std::size_t entries) {
   std::vector<WorkShares::Work> mine(copies_.size() + 1);
   mine.back()[0] = entries;
   for (std::size_t e = 0; e < copies_.size(); ++e) {
-    std::size_t own = 0, n = 0;
+    std::size_t own = 0;
     for (auto const& [begin, end] : own_[e]) own += end - begin;
-    for (auto const& [begin, end] : own_[e])
-      for (std::size_t k = begin; k < end; ++k, ++n) {
-        auto& work = mine[e][n * WorkShares::parts / own];
-        work += of_a_row;
-        for (auto const& list : lists_)
-          if (list.target == &copies_[e]) work += list.list.lengths(list_rings - 1)[k];
-      }
+    auto const of_rows = [&](auto const& work_of) {
+      std::size_t n = 0, part = 0;
+      for (auto const& [begin, end] : own_[e])
+        for (std::size_t k = begin; k < end; ++k, ++n) {
+          while (n * WorkShares::parts >= (part + 1) * own) ++part;
+          mine[e][part] += work_of(k);
+        }
+    };
+    of_rows([](std::size_t) { return of_a_row; });
+    for (auto const& list : lists_)
+      if (list.target == &copies_[e])
+        of_rows([lengths = list.list.lengths(list_rings - 1)](std::size_t k) { return lengths[k]; });
   }
   auto const all = division_->team().gather({reinterpret_cast<char const*>(mine.data()), mine.size() * sizeof mine[0]});
   std::vector<WorkShares::Work> work(all.size());
@@ -229,7 +234,7 @@ bool Neighbourhood::is_own(SortedCopy const& copy, std::uint32_t row) const {
   return after != rows.begin() && row < std::prev(after)->end;
 }
 
-/// The rows of each copy, sentinel and images too, that are in this rank's lists.
+/// The rows of each copy, images too, that are in this rank's lists; the sentinel, too, by which these are padded.
 std::vector<std::vector<char>> Neighbourhood::rows_in_lists(int threads) const {
   std::vector<std::vector<char>> found;
   for (auto const& copy : copies_) found.emplace_back(copy.total() + 1, 0);
@@ -241,8 +246,11 @@ std::vector<std::vector<char>> Neighbourhood::rows_in_lists(int threads) const {
     std::uint32_t const* const lengths = list.list.lengths(list_rings - 1);
     over_own(*list.target, 1024, threads, [=](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i)
-        for (std::uint32_t const *entry = rows[i], *const last = entry + lengths[i]; entry < last; ++entry)
-          std::atomic_ref(in_lists[row_of_item(*entry)]).store(1, std::memory_order_relaxed);
+        for (std::uint32_t const *entry = rows[i], *const last = entry + lengths[i]; entry < last;
+             entry += list_padding)
+#pragma GCC unroll 8
+          for (std::size_t n = 0; n < list_padding; ++n)
+            std::atomic_ref(in_lists[row_of_item(entry[n])]).store(1, std::memory_order_relaxed);
     });
   }
   return found;
@@ -270,9 +278,12 @@ void Neighbourhood::find_needed(int threads) {
     for (std::size_t k = copy.sentinel() + 1; k <= copy.total(); ++k)
       if (read[k]) read[copy.owner(k)] = 1;
     std::vector<Stretch> rows;
+    auto own = own_[e].begin();
     for (std::size_t n = 0; n < copy.known(); ++n) {
       std::uint32_t const k = copy.known(n);
-      if (!read[k] || is_own(copy, k)) continue;
+      if (!read[k]) continue;
+      while (own != own_[e].end() && own->end <= k) ++own;
+      if (own != own_[e].end() && own->begin <= k) continue;
       if (!rows.empty() && rows.back().end == k)
         ++rows.back().end;
       else

@@ -162,7 +162,8 @@ class Neighbourhood {
   bool build_in_parts(int threads);
   void agree_on_extents(std::vector<Sorting>& all, double reach);
   bool agree_on_order(std::vector<Sorting>& all, double reach);
-  std::vector<std::vector<std::uint32_t>> readers(std::vector<Sorting> const& all, std::size_t e, double reach) const;
+  void find_who_reads(std::vector<Sorting>& all, double reach) const;
+  std::vector<std::vector<std::uint32_t>> readers(Sorting const& one) const;
   void build_part(Sorting const& one, std::vector<std::uint32_t> const& numbers, std::size_t e, double reach,
                   int threads);
   void become_whole(int threads);

@@ -1,6 +1,7 @@
 // Sorting, images, and following the particles between two builds.
 #include <boltzmann/neighbours/sorted_copy.hpp>
 
+#include <boltzmann/boundaries/interior.hpp>
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/threads.hpp>
 #include <boltzmann/neighbours/neighbour_kernels.hpp>
@@ -28,9 +29,11 @@ constexpr double nowhere = std::numeric_limits<double>::quiet_NaN();
 
 /// x in steps, modulo 2^32.
 std::int32_t in_steps(double x, double reach) {
-  double steps = std::floor(x / reach * steps_of_reach + 0.5);
-  if (std::abs(steps) > 0x1p62) steps = std::fmod(steps, 0x1p32);
-  return static_cast<std::int32_t>(static_cast<std::uint32_t>(static_cast<std::int64_t>(steps)));
+  double steps = x / reach * steps_of_reach + 0.5;
+  if (!(std::abs(steps) < 0x1p62)) steps = std::fmod(std::floor(steps), 0x1p32);
+  auto const truncated = static_cast<std::int64_t>(steps);
+  std::int64_t const below = truncated - (steps < static_cast<double>(truncated) ? 1 : 0);
+  return static_cast<std::int32_t>(static_cast<std::uint32_t>(below));
 }
 /// All rows that have been moved, and their images, for the search.
 template <class Images>
@@ -106,8 +109,8 @@ void SortedCopy::build(double reach, std::span<double const> references, Box::Ed
   part_ = false;
   known_.clear();
   sort(reach, references, threads);
-  add_ghosts(threads);
-  finish_build({}, threads);
+  add_ghosts(nullptr, threads);
+  finish_build(nullptr, threads);
   everything();
 }
 
@@ -129,31 +132,36 @@ void SortedCopy::build_part(double reach, Part part, int threads) {
       take_reference(known_[n], part.references.data() + D * n);
     }
   });
-  add_ghosts(threads);
-  finish_build(part.grid, threads);
+  add_ghosts(&part, threads);
+  finish_build(&part, threads);
 }
 
 double SortedCopy::reference_of(double x, int axis) const { return box_->periodic(axis) ? box_->wrapped(x, axis) : x; }
 
 /// The reference of a row, D numbers.
 void SortedCopy::take_reference(std::size_t k, double const* reference) {
-  for (int a = 0; a < 4; ++a) {
-    double const x = a < box_->dimension() ? reference[a] : 0;
-    references_[4 * k + a] = x;
-    steps_[4 * k + a] = in_steps(x, reach_);
-  }
+  int const dimension = box_->dimension();
+  double* const to = references_.data() + 4 * k;
+  std::int32_t* const steps = steps_.data() + 4 * k;
+  to[0] = to[1] = to[2] = to[3] = 0;
+  steps[0] = steps[1] = steps[2] = steps[3] = 0;
+  for (int a = 0; a < dimension; ++a) to[a] = reference[a], steps[a] = in_steps(reference[a], reach_);
 }
 
 std::vector<double> SortedCopy::references_of(std::span<std::uint32_t const> particles) const {
   auto const D = static_cast<std::size_t>(box_->dimension());
+  auto const edges = box_->edges();
   std::vector<double> references(D * particles.size());
-  auto to = references.begin();
-  for (std::uint32_t const i : particles)
+  double* to = references.data();
+  for (std::uint32_t const i : particles) {
+    double const* const row = ensemble_->row(i);
     for (std::size_t a = 0; a < D; ++a) {
-      double const x = ensemble_->row(i)[a];
-      if (!std::isfinite(x)) not_finite(*ensemble_, i);
-      *to++ = reference_of(x, static_cast<int>(a));
+      double const x = row[a];
+      bool const inside = x >= edges[a] && x < edges[3 + a];
+      if (!inside && !std::isfinite(x)) not_finite(*ensemble_, i);
+      *to++ = inside ? x : reference_of(x, static_cast<int>(a));
     }
+  }
   return references;
 }
 
@@ -192,11 +200,11 @@ void SortedCopy::begin_build(double reach, Box::Edges const& edges, double slide
   free_.clear();
 }
 
-void SortedCopy::finish_build(std::optional<Grid> const& grid, int threads) {
+void SortedCopy::finish_build(Part const* part, int threads) {
   if (total() >= max_rows) too_many_rows(static_cast<double>(total()));
   capacity_ = 0;
   make_room(total() + 1);
-  sort_all(grid, threads);
+  sort_all(part, threads);
   for (auto& column : moved_position_) column.assign(candidate_padding, 0);
   moved_item_.assign(candidate_padding, 0);
   // Nowhere, as the sentinel will stay, until they are refreshed: whoever asks then hears that all have changed.
@@ -227,12 +235,13 @@ void SortedCopy::only(std::vector<Stretch> const& own, std::vector<Stretch> cons
   others_ = others;
   largest2_.assign(pieces_.size(), 0.0);
   images_of_.clear();
+  constexpr std::size_t few = 4;  // that nobody reads cost less than another stretch
   for (std::size_t g = 0; g < ghost_source_.size(); ++g) {
     if (!read[owned() + 1 + g]) continue;
-    bool const goes_on = !images_of_.empty() && images_of_.back().end == g &&
+    bool const goes_on = !images_of_.empty() && images_of_.back().end + few >= g &&
                          images_of_.back().end - images_of_.back().begin < refresh_grain;
     if (goes_on)
-      ++images_of_.back().end;
+      images_of_.back().end = g + 1;
     else
       images_of_.push_back({g, g + 1});
   }
@@ -307,7 +316,7 @@ double SortedCopy::images_moved() const {
   return std::sqrt(square);
 }
 
-void SortedCopy::add_ghosts(int threads) {
+void SortedCopy::add_ghosts(Part const* part, int threads) {
   ghost_source_.clear();
   ghost_turns_.clear();
   max_images_ = 0;
@@ -323,20 +332,23 @@ void SortedCopy::add_ghosts(int threads) {
     std::vector<std::uint32_t> source, turns;
   };
   std::vector<Found> parts((known() + refresh_grain - 1) / refresh_grain);
+  Interior const interior(*box_, built_edges_, reach_);
   for_ranges(known(), refresh_grain, threads, [&](std::size_t begin, std::size_t end) {
-    Found& part = parts[begin / refresh_grain];  // of one thread: whole ranges, or all of them in the first
+    Found& found = parts[begin / refresh_grain];  // of one thread: whole ranges, or all of them in the first
     for (std::size_t n = begin; n < end; ++n) {
       std::uint32_t const k = known(n);
-      images_.each(references_.data() + 4 * std::size_t{k}, reach_, [&](Turns const& turns, auto const&) {
-        if (turns == Turns{}) return;
-        part.source.push_back(k);
-        part.turns.push_back(code_of(turns));
+      double const* const reference = references_.data() + 4 * std::size_t{k};
+      if (interior.holds(reference)) continue;
+      images_.each(reference, reach_, [&](Turns const& turns, auto const& at) {
+        if (turns == Turns{} || (part && !part->near(at.data()))) return;
+        found.source.push_back(k);
+        found.turns.push_back(code_of(turns));
       });
     }
   });
-  for (auto const& part : parts) {
-    ghost_source_.insert(ghost_source_.end(), part.source.begin(), part.source.end());
-    ghost_turns_.insert(ghost_turns_.end(), part.turns.begin(), part.turns.end());
+  for (auto const& found : parts) {
+    ghost_source_.insert(ghost_source_.end(), found.source.begin(), found.source.end());
+    ghost_turns_.insert(ghost_turns_.end(), found.turns.begin(), found.turns.end());
   }
 }
 
@@ -368,27 +380,41 @@ void SortedCopy::move_ghosts(std::size_t first_block, std::size_t last_block, st
   neighbour_kernels().images(task, begin, end);
 }
 
-/// All rows that are known, in the cells of a grid, or of one that they need.
-void SortedCopy::sort_all(std::optional<Grid> const& grid, int threads) {
+/// All rows that are known, or of a part those that may be found, in its cells.
+void SortedCopy::sort_all(Part const* part, int threads) {
   int const dimension = box_->dimension();
-  std::size_t const rows = known(), count = rows + ghost_source_.size();
-  std::vector<double> at(count * dimension);
+  std::vector<std::uint32_t> found;  // rows; without a part all of them
+  if (part)
+    for (std::uint32_t const k : known_)
+      if (part->near(references_.data() + 4 * std::size_t{k})) found.push_back(k);
+  std::size_t const rows = part ? found.size() : owned(), count = rows + ghost_source_.size();
+  auto const row = [&](std::size_t n) { return part ? std::size_t{found[n]} : n; };
+  AlignedVector<double> at(4 * count);
   for_ranges(count, refresh_grain, threads, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t n = begin; n < end; ++n) {
-      std::size_t const source = n < rows ? known(n) : ghost_source_[n - rows];
-      auto const& turns = turns_[n < rows ? code_of({0, 0, 0}) : ghost_turns_[n - rows]];
-      for (int a = 0; a < dimension; ++a) at[n * dimension + a] = images_.at(a, turns, references_[4 * source + a]);
+    for (std::size_t n = begin; n < std::min(rows, end); ++n)
+      std::copy_n(references_.data() + 4 * row(n), 4, at.data() + 4 * n);
+    for (std::size_t n = std::max(rows, begin); n < end; ++n) {
+      double const* const source = references_.data() + 4 * std::size_t{ghost_source_[n - rows]};
+      Turns const& turns = turns_[ghost_turns_[n - rows]];
+      for (int a = 0; a < dimension; ++a) at[4 * n + a] = images_.at(a, turns, source[a]);
     }
   });
-  cells_ = grid ? Cells(*grid, at.data(), dimension, count, reach_, threads)
-                : Cells(dimension, at.data(), dimension, count, reach_, threads);
+  cells_ = part ? Cells(part->grid, at.data(), 4, count, reach_, threads)
+                : Cells(dimension, at.data(), 4, count, reach_, threads);
   auto const& items = cells_.items();
   for (int a = 0; a < 3; ++a) position_[a].resize(count + candidate_padding);
   item_.resize(count + candidate_padding);
   for_ranges(count, refresh_grain, threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t s = begin; s < end; ++s) {
-      item_[s] = item_of_row(items[s] < rows ? known(items[s]) : items[s] - rows + owned() + 1);
-      for (int a = 0; a < dimension; ++a) position_[a][s] = in_steps(at[items[s] * dimension + a], reach_);
+      std::size_t const n = items[s];
+      if (n < rows) {
+        std::size_t const k = row(n);
+        item_[s] = item_of_row(k);
+        for (int a = 0; a < dimension; ++a) position_[a][s] = steps_[4 * k + a];
+      } else {
+        item_[s] = item_of_row(n - rows + owned() + 1);
+        for (int a = 0; a < dimension; ++a) position_[a][s] = in_steps(at[4 * n + a], reach_);
+      }
     }
   });
 }
@@ -588,7 +614,6 @@ void SortedCopy::move(std::span<std::uint32_t const> rows, std::span<double cons
 
 void SortedCopy::owned_near(double const* x, double reach, std::vector<std::uint32_t>& rows) const {
   std::array<std::int32_t, 3> steps{};
-  for (int a = 0; a < box_->dimension(); ++a) steps[a] = in_steps(x[a], reach_);
   double const furthest = reach / reach_ * steps_of_reach * (1 + 1e-6) + 4;
   auto const take = [&](auto const& position, std::size_t s, std::uint32_t item) {
     double square = 0;
@@ -600,10 +625,16 @@ void SortedCopy::owned_near(double const* x, double reach, std::vector<std::uint
     std::size_t const row = row_of_item(item);
     rows.push_back(row < owned() ? static_cast<std::uint32_t>(row) : ghost_source_[row - owned() - 1]);
   };
-  cells_.near(x, reach, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t s = begin; s < end; ++s) take(position_, s, item_[s]);
-  });
-  for (std::size_t s = 0; s + candidate_padding < moved_item_.size(); ++s) take(moved_position_, s, moved_item_[s]);
+  auto const look = [&](double const* here) {
+    for (int a = 0; a < box_->dimension(); ++a) steps[a] = in_steps(here[a], reach_);
+    cells_.near(here, reach, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t s = begin; s < end; ++s) take(position_, s, item_[s]);
+    });
+    for (std::size_t s = 0; s + candidate_padding < moved_item_.size(); ++s) take(moved_position_, s, moved_item_[s]);
+  };
+  if (!part_) return look(x);
+  // Of a part images are not everywhere: rows near those of x, for those of rows near x.
+  images_.each(x, reach, [&](Turns const&, auto const& at) { look(at.data()); });
 }
 
 bool SortedCopy::knows(std::uint32_t k, std::uint32_t particle) const {

@@ -10,8 +10,8 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <new>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -64,6 +64,9 @@ class SortedCopy {
     std::vector<std::uint32_t> rows;       ///< their rows, ascending,
     std::vector<double> references;        ///< and references, dimension() numbers each
     Grid grid;                             ///< for the references of all rows, images included
+    /// Whether a position is one where those are found whose neighbours are sought here. Rows and images elsewhere are
+    /// in no cell.
+    std::function<bool(double const* x)> near;
   };
   /// The build of which this is a part: rows are sorted among themselves as all are, the others stay unknown, and there
   /// are images of those that are known alone.
@@ -186,11 +189,11 @@ class SortedCopy {
   [[noreturn]] void too_many_rows(double count) const;
   double reference_of(double x, int axis) const;
   void begin_build(double reach, Box::Edges const& edges, double slide);
-  void finish_build(std::optional<Grid> const& grid, int threads);
+  void finish_build(Part const* part, int threads);
   void take_reference(std::size_t k, double const* reference);
   void sort(double reach, std::span<double const> references, int threads);
-  void add_ghosts(int threads);
-  void sort_all(std::optional<Grid> const& grid, int threads);
+  void add_ghosts(Part const* part, int threads);
+  void sort_all(Part const* part, int threads);
   void make_room(std::size_t rows);
   RefreshTask refresh_task() const;
   std::size_t all_blocks() const { return blocks() + extra_blocks_; }

@@ -356,8 +356,16 @@ void RowExchange::bring_rows(Division& division, Take const& take) {
   division.team().exchange(
       sizes(sends_, count), sizes(receives_, count),
       [&](std::size_t r, double* to) {
-        for (std::size_t e = 0; e < ensembles_.size(); ++e)
-          for (auto const i : sends_[r][e]) to = copy_few(ensembles_[e]->row(i), count(e), to);
+        constexpr std::size_t ahead = 12;
+        for (std::size_t e = 0; e < ensembles_.size(); ++e) {
+          auto const& numbers = sends_[r][e];
+          std::size_t const stride = count(e);
+          double const* const rows = numbers.empty() ? nullptr : ensembles_[e]->row(0);
+          for (std::size_t n = 0; n < numbers.size(); ++n) {
+            if (n + ahead < numbers.size()) __builtin_prefetch(rows + stride * numbers[n + ahead]);
+            to = copy_few(rows + stride * numbers[n], stride, to);
+          }
+        }
       },
       [&](std::size_t r, double const* from) {
         for (std::size_t e = 0; e < ensembles_.size(); ++e) {

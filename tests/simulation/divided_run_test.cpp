@@ -52,6 +52,7 @@ void with_a_few_ahead(World& world) {
   auto& scheme = *static_cast<PairScheme*>(world.parts[1].get());
   auto& atoms = *dynamic_cast<Ensemble<Newton<2>>*>(scheme.ensembles()[0]);
   for (std::size_t const i : {100U, 1333U, 1900U}) atoms[i].velocity = {i == 1333 ? -25.0 : 15.0, 20.0};
+  atoms[22].velocity = {20.0, 0.0};  // along an end of the box, beyond which other ranks see its image
 }
 
 // Around those that are ahead of all others neighbours are found anew alone, and ranks hear of particles that come from
