@@ -4,7 +4,6 @@
 #include <boltzmann/pictures/figure.hpp>
 #include <boltzmann/pictures/picture_options.hpp>
 #include <boltzmann/pictures/picture_scene.hpp>
-#include <boltzmann/simulation/keeps_numbers.hpp>
 
 #include <algorithm>
 
@@ -67,7 +66,7 @@ std::vector<std::string> vector_names(std::vector<AnyEnsemble*> const& ensembles
 }
 
 void check_tracks(Simulation const& simulation) {
-  if (numbers_change(simulation.adaptations()))
+  if (simulation.numbers_change())
     throw Error("a picture with tracks needs particles that keep their numbers; here some come and go between steps");
 }
 

@@ -1,7 +1,6 @@
 // All diagnoses of a look share what has to be found for it: energies, fields of a mesh.
 #include <boltzmann/core/units.hpp>
 #include <boltzmann/recording/instruments.hpp>
-#include <boltzmann/simulation/keeps_numbers.hpp>
 #include <boltzmann/simulation/refusals.hpp>
 
 #include <fmt/format.h>
@@ -28,12 +27,6 @@ void Instruments::check() const {
   for (auto const& column : columns())
     if (!names.insert(column.name).second) throw Error("two diagnoses give a column called '" + column.name + "'");
   for (auto const& diagnosis : list_) diagnosis->check(simulation_.schemes().front()->box());
-  for (auto const& diagnosis : list_)
-    if (numbers_change(simulation_.adaptations()) && diagnosis->by_number())
-      throw Error(
-          fmt::format("the diagnosis of '{}' follows particles by their numbers, which change where particles "
-                      "come and go between steps",
-                      diagnosis->columns().front().name));
   for (auto const& line : refusals(simulation_, list_))
     if (!line.empty()) throw Error(line);
 }

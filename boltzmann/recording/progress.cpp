@@ -4,7 +4,6 @@
 #include <boltzmann/recording/interrupt.hpp>
 #include <boltzmann/recording/progress.hpp>
 #include <boltzmann/recording/run_loop.hpp>
-#include <boltzmann/simulation/keeps_numbers.hpp>
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -164,7 +163,7 @@ RunReport run_loop(Simulation& simulation, std::uint64_t steps, ProgressOptions 
   std::int64_t const first = simulation.step();
   print_warnings(simulation, options);
   if (!options.quiet) watch.line.emplace(first, first + static_cast<std::int64_t>(steps), options.planned);
-  if (numbers_change(simulation.adaptations())) watch.particle_steps = 0;
+  if (simulation.numbers_change()) watch.particle_steps = 0;
   std::optional<Attending> attending;
   if (watch.line || watch.limit || watch.particle_steps)
     attending.emplace(simulation, simulation.observe_progress([&](Simulation const&) { watch.look(simulation); }));

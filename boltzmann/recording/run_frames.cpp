@@ -4,7 +4,6 @@
 #include <boltzmann/recording/saved_state.hpp>
 #include <boltzmann/recording/trajectory_units.hpp>
 #include <boltzmann/recording/version.hpp>
-#include <boltzmann/simulation/keeps_numbers.hpp>
 
 #include <fmt/format.h>
 
@@ -35,7 +34,7 @@ BoxEdges edges_of(Box const& box) {
 TrajectoryOptions RunFrames::options() const {
   TrajectoryOptions options;
   options.version = program_version;
-  options.sizes_change = numbers_change(simulation_.adaptations());
+  options.sizes_change = simulation_.numbers_change();
   if (!units_.is_reduced()) {
     options.unit_name = [units = units_](Dimension d) { return trajectory_unit(units, d).unit; };
     options.factor = [units = units_](Dimension d) { return trajectory_unit(units, d).factor; };

@@ -102,6 +102,9 @@ class Loader {
   std::size_t stored_frame_ = 0;
 };
 
+/// Whether this machine has the memory for so many particles of a class; if not, a mistake.
+bool fits_memory(double count, ClassVariant const& variant, Place const& place, Reading& reading);
+
 /// A wave to be added to the velocities.
 VelocityRipple read_velocity_ripple(Item const& item, Reading& reading);
 

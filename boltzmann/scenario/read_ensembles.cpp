@@ -27,33 +27,57 @@ std::string title_of(Item const& table) {
 /// From one table to an ensemble: first what is to be, then its particles.
 class EnsembleReader {
  public:
-  EnsembleReader(Item const& table, Reading& reading)
-      : table_(table),
-        reading_(reading),
+  EnsembleReader(Item const& table, std::string title, Reading& reading, Item const* otherwise = nullptr)
+      : reading_(reading),
         before_(reading.context.mistakes.count()),
-        section_(table, title_of(table), reading.context) {
+        section_(table, std::move(title), reading.context, otherwise) {
     ensemble_.place = table.place;
+    ensemble_.table = &table;
   }
 
   void read() {
     read_keys();
     read_class();
+    read_particles_of_class();
+    read_bonds(section_, particles_, ensemble_.molecules, reading_);
+    if (kind_) section_.finish();
+    if (variant_) make_integrator();
+    complete();
+    if (made_) reading_.result->ensembles.push_back(std::move(made_));
+    ensemble_.particles = right() ? particles_ : nullptr;
+    reading_.ensembles.push_back(std::move(ensemble_));
+  }
+
+  /// More particles of an ensemble, under a name of their own.
+  std::unique_ptr<AnyEnsemble> read_more(ReadEnsemble const& of, std::string const& name) {
+    addition_ = true;
+    read_options(section_, ensemble_options().only({{"number"}}), &options_, {.dimension = reading_.dimension});
+    options_.name = name;
+    ensemble_.name = of.name;
+    kind_ = of.kind;
+    variant_ = kind_->in(reading_.dimension);
+    section_.explain_said(ensemble_options());
+    read_particles_of_class();
+    section_.finish();
+    complete();
+    return right() ? std::move(made_) : nullptr;
+  }
+
+ private:
+  void read_particles_of_class() {
     read_load();
     if (kind_) read_fields_of_class();
     if (smooth()) read_matter();
     read_velocities();
     if (variant_ && loadable_ && reading_.box && right()) make_particles();
     for (Item const* set : find_tables(section_, "set")) read_set(*set);
-    read_bonds(section_, particles_, ensemble_.molecules, reading_);
-    if (kind_) section_.finish();
-    if (variant_) make_integrator();
-    if (particles_ && ensemble_.state) find_temperatures(*particles_, *ensemble_.state);
-    if (particles_) catch_errors(reading_, ensemble_.load_place, [&] { reading_.box->check(*particles_); });
-    ensemble_.particles = right() ? particles_ : nullptr;
-    reading_.ensembles.push_back(std::move(ensemble_));
   }
 
- private:
+  void complete() {
+    if (particles_ && ensemble_.state) find_temperatures(*particles_, *ensemble_.state);
+    if (particles_) catch_errors(reading_, ensemble_.load_place, [&] { reading_.box->check(*particles_); });
+  }
+
   bool right() const { return reading_.context.mistakes.count() == before_; }
   bool smooth() const { return kind_ && kind_->matter != Matter::none; }
   void mistake(Place const& place, std::string const& what) { reading_.mistake(place, what); }
@@ -116,8 +140,7 @@ class EnsembleReader {
     ensemble_.state = read_state_law(section_, *kind_, reading_);
     internal_temperature_ = read_internal_temperature(section_, *kind_, reading_);
     if (section_.has("position"))
-      mistake(table_.find("position")->place,
-              "positions are loaded: load = { kind = \"positions\", positions = [...] }");
+      mistake(section_.place("position"), "positions are loaded: load = { kind = \"positions\", positions = [...] }");
     refuse_found(section_, *kind_, reading_);
     auto given = given_fields(*kind_, reading_.dimension);
     if (Item const* item = section_.item("internal_energy"); item && item->is(Item::Kind::table))
@@ -160,8 +183,8 @@ class EnsembleReader {
   }
 
   void make_particles() {
-    reading_.result->ensembles.push_back(variant_->make(ensemble_.name, count_));
-    particles_ = reading_.result->ensembles.back().get();
+    made_ = variant_->make(options_.name, count_);
+    particles_ = made_.get();
     auto const all = all_indices(*particles_);
     for (auto const& value : fields_) apply(value, *particles_, all);  // loaders look at masses
     bool const loaded = catch_errors(reading_, ensemble_.load_place, [&] { loader_->load(*particles_); });
@@ -233,6 +256,8 @@ class EnsembleReader {
       if (!apply(formula, *particles_, *which, reading_)) break;
     if (density_gives_mass() && gives(set, "density") && !gives(set, "mass"))
       set_masses(*particles_, *volume(), *which);
+    if (options.freeze && addition_)
+      return mistake(set.place("freeze"), "freeze: particles that are added are not frozen");
     if (options.freeze) frozen_.insert(frozen_.end(), which->begin(), which->end());
   }
 
@@ -253,7 +278,6 @@ class EnsembleReader {
     ensemble_.integrator = std::make_unique<Frozen>(*particles_, frozen_, std::move(ensemble_.integrator));
   }
 
-  Item const& table_;
   Reading& reading_;
   std::size_t before_;
   Section section_;
@@ -268,18 +292,71 @@ class EnsembleReader {
   std::vector<FieldFormula> formulas_;
   std::optional<double> internal_temperature_;
   std::optional<VelocityRipple> ripple_;
+  bool addition_ = false;
+  std::unique_ptr<AnyEnsemble> made_;
   AnyEnsemble* particles_ = nullptr;  ///< null until, and unless, everything is right
   std::vector<std::uint32_t> frozen_;
 };
 
+bool any_of_these(std::initializer_list<std::string_view> keys, std::string const& key) {
+  return std::find(keys.begin(), keys.end(), key) != keys.end();
+}
+
+/// A value for each particle, or each of a molecule.
+bool is_list(Item const& item, std::string const& key, ParticleClass const& kind, int dimension) {
+  if (!item.is(Item::Kind::array) || item.elements.empty()) return false;
+  for (auto const& field : given_fields(kind, dimension))
+    if (field.name == key)
+      return item.elements.front().is(Item::Kind::array) || (field.components == 1 && item.elements.size() != 1);
+  return false;
+}
+
+/// What an ensemble's own table says of particles that are like its own: all but where they are, and how fast. A mistake
+/// where `table` has to say it.
+Item alike(Item const& table, ReadEnsemble const& of, Reading& reading) {
+  Item all;
+  bool const one_gives_the_other = of.smooth() && !reading.smooth.from_continuity;
+  for (Entry const& entry : of.table->entries) {
+    if (one_gives_the_other &&
+        ((entry.key == "density" && table.find("mass")) || (entry.key == "mass" && table.find("density"))))
+      continue;
+    if (table.find(entry.key) ||
+        any_of_these({"name", "class", "integrator", "colour", "diameter", "load", "number", "molecule", "bonds", "set",
+                      "velocity", "temperature", "drift", "remove_drift", "exact_temperature", "quiet",
+                      "velocity_ripple", "anchor"},
+                     entry.key))
+      continue;
+    if (is_list(entry.item, entry.key, *of.kind, reading.dimension)) {
+      reading.mistake(table.place, fmt::format("add: '{}' of '{}' is a list; say here what those that are added have",
+                                               entry.key, of.name));
+      continue;
+    }
+    all.entries.push_back(entry);
+    if (entry.key == "formulas")
+      std::erase_if(all.entries.back().item.entries, [](Entry const& formula) { return formula.key == "velocity"; });
+  }
+  return all;
+}
+
 }  // namespace
+
+std::shared_ptr<AnyEnsemble const> read_addition(Item const& table, ReadEnsemble const& to, std::string const& name,
+                                                 Reading& reading) {
+  std::size_t const before = reading.context.mistakes.count();
+  for (char const* key : {"material", "heat_capacity"})
+    if (Entry const* own = table.find(key))
+      reading.mistake(own->place, fmt::format("{}: it is that of '{}', whose particles are added", key, to.name));
+  Item const otherwise = alike(table, to, reading);
+  if (reading.context.mistakes.count() != before) return nullptr;
+  return EnsembleReader(table, "add", reading, &otherwise).read_more(to, name);
+}
 
 void read_ensembles(Section& document, Reading& reading) {
   if (!document.has("ensembles")) reading.mistake({}, "there are no [[ensembles]]; a scenario needs particles");
   auto const tables = find_tables(document, "ensembles");
   if (Item const* item = document.find("ensembles"); item && item->is(Item::Kind::array) && item->elements.empty())
     reading.mistake(item->place, "there are no [[ensembles]]; a scenario needs particles");
-  for (Item const* table : tables) EnsembleReader(*table, reading).read();
+  for (Item const* table : tables) EnsembleReader(*table, title_of(*table), reading).read();
 }
 
 }  // namespace boltzmann

@@ -1,6 +1,8 @@
-// Reads [[events]]: what happens once at a time of the run.
+// Reads [[events]]: what happens at a time of the run.
 #include <boltzmann/core/quantity_text.hpp>
+#include <boltzmann/loaders/append.hpp>
 #include <boltzmann/scenario/field_formulas.hpp>
+#include <boltzmann/scenario/loader.hpp>
 #include <boltzmann/scenario/read_options.hpp>
 #include <boltzmann/scenario/reading.hpp>
 #include <boltzmann/scenario/tables.hpp>
@@ -127,7 +129,44 @@ std::vector<Moved> read_moved(Section& section, Reading& reading) {
   return moved;
 }
 
-void read_event(Item const& table, Reading& reading) {
+struct Addition {
+  AnyEnsemble* to;
+  std::vector<std::shared_ptr<AnyEnsemble const>> particles;  // of each time
+};
+
+/// `add` of event `number`.
+std::optional<Addition> read_added(Item const& add, Section& section, std::size_t number, std::int64_t times,
+                                   Reading& reading) {
+  Item const* on = section.need("on", "on = \"atoms\"");
+  ReadEnsemble const* const to = on ? reading.ensemble(*on, "on") : nullptr;
+  auto const refuse = [&](Place const& place, std::string const& why) {
+    reading.mistake(place, "add: " + why);
+    return std::nullopt;
+  };
+  if (!add.is(Item::Kind::table))
+    return refuse(add.place, fmt::format("a table is needed, {{ load = {{ ... }} }}, not {}", describe(add)));
+  if (!to || !to->particles) return std::nullopt;
+  if (!to->table) return refuse(on->place, fmt::format("'{}' is the outline of a body", to->name));
+  bool const rigid = std::any_of(reading.rigid.begin(), reading.rigid.end(),
+                                 [&](auto const& bonds) { return &bonds->ensemble() == to->particles; });
+  if (rigid || !to->molecules.bonds.empty())
+    return refuse(on->place, fmt::format("particles of '{}' are joined by bonds, and what is added has none; make an "
+                                         "ensemble of those",
+                                         to->name));
+  Addition all{to->particles, {}};
+  for (std::int64_t k = 0; k < times; ++k) {
+    auto particles = read_addition(add, *to, fmt::format("{}, event {}, time {}", to->name, number, k), reading);
+    if (!particles) return std::nullopt;
+    double const more = static_cast<double>(particles->size()) * static_cast<double>(times);
+    if (!fits_memory(more + static_cast<double>(to->particles->size()), *to->kind->in(reading.dimension), add.place,
+                     reading))
+      return std::nullopt;
+    all.particles.push_back(std::move(particles));
+  }
+  return all;
+}
+
+void read_event(Item const& table, std::size_t number, Reading& reading) {
   std::size_t const before = reading.context.mistakes.count();
   Section section(table, "[[events]]", reading.context);
   EventOptions options;
@@ -142,26 +181,46 @@ void read_event(Item const& table, Reading& reading) {
                                               describe(*set)));
   }
   bool const moves = options.temperature || options.scale || options.kick;
-  auto const moved = read_moved(section, reading);
+  if (options.every ? !section.has("times") : section.has("times"))
+    reading.mistake(section.place(options.every ? "every" : "times"),
+                    "every and times: what happens again needs both, the time between and how often");
+  Item const* const add = section.find("add");
+  for (char const* key : {"on", "where"}) section.allow(key);
+  if (add && moves)
+    reading.mistake(add->place,
+                    "add: an event adds particles or changes velocities; two events at one time do both, in the order "
+                    "of the file");
+  std::optional<Addition> const added =
+      add && !moves ? read_added(*add, section, number, options.times, reading) : std::nullopt;
+  auto const moved = add ? std::vector<Moved>{} : read_moved(section, reading);
   for (char const* key : {"on", "where"})
-    if (!moves && section.has(key))
+    if (!moves && section.has(key) && !(add && std::string_view(key) == "on"))
       reading.mistake(section.place(key),
                       fmt::format("{}: it belongs to what changes velocities: temperature, scale or kick", key));
-  if (!moves && !section.has("set") && reading.context.mistakes.count() == before)
-    reading.mistake(table.place, "[[events]]: nothing happens; add 'set', 'temperature', 'scale' or 'kick'");
+  if (!moves && !add && !section.has("set") && reading.context.mistakes.count() == before)
+    reading.mistake(table.place, "[[events]]: nothing happens; add 'set', 'add', 'temperature', 'scale' or 'kick'");
   section.finish();
   if (reading.context.mistakes.count() != before) return;
-  if (!settings.empty())
-    reading.events.push_back({options.at, true, [settings](Simulation& simulation) {
-                                for (auto const& set : settings) set(simulation);
-                              }});
-  if (moves)
-    reading.events.push_back({options.at, false, [=, k = reading.boltzmann_constant()](Simulation& simulation) {
-                                auto const who = who_is_moved(moved, simulation.time());
-                                if (options.temperature) scale_to_temperature(who, *options.temperature, k);
-                                if (options.scale) scale_velocities(who, *options.scale);
-                                if (options.kick) kick(who, *options.kick);
-                              }});
+  using enum ReadEvent::Kind;
+  for (std::int64_t time = 0; time < options.times; ++time) {
+    double const at = options.at + static_cast<double>(time) * options.every.value_or(0);
+    if (!settings.empty())
+      reading.events.push_back({at, lasting, [settings](Simulation& simulation) {
+                                  for (auto const& set : settings) set(simulation);
+                                }});
+    if (added)
+      reading.events.push_back(
+          {at, adding, [to = added->to, more = added->particles[static_cast<std::size_t>(time)]](Simulation& /*of*/) {
+             append(*to, *more);
+           }});
+    if (moves)
+      reading.events.push_back({at, passing, [=, k = reading.boltzmann_constant()](Simulation& simulation) {
+                                  auto const who = who_is_moved(moved, simulation.time());
+                                  if (options.temperature) scale_to_temperature(who, *options.temperature, k);
+                                  if (options.scale) scale_velocities(who, *options.scale);
+                                  if (options.kick) kick(who, *options.kick);
+                                }});
+  }
 }
 
 }  // namespace
@@ -179,14 +238,18 @@ void read_events(Section& document, Reading& reading) {
   auto const tables = find_tables(document, "events");
   if (tables.empty()) return;
   add_integrators(reading);
-  for (Item const* table : tables) read_event(*table, reading);
+  for (std::size_t n = 0; n < tables.size(); ++n) read_event(*tables[n], n, reading);
 }
 
 void add_events(Reading& reading) {
   Simulation& simulation = *reading.result->simulation;
-  for (auto const& event : reading.events)
-    simulation.happen(
-        event.at, [&simulation, happen = event.happen] { happen(simulation); }, event.lasting);
+  for (auto const& event : reading.events) {
+    auto const happen = [&simulation, happen = event.happen] { happen(simulation); };
+    if (event.kind == ReadEvent::Kind::adding)
+      simulation.add_particles(event.at, happen);
+    else
+      simulation.happen(event.at, happen, event.kind == ReadEvent::Kind::lasting);
+  }
 }
 
 }  // namespace boltzmann

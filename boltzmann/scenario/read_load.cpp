@@ -28,16 +28,6 @@ double memory_of(double count, ClassVariant const& variant) {
   return count * (3.0 * static_cast<double>(variant.row_bytes) + 200);
 }
 
-bool fits_memory(double count, ClassVariant const& variant, Place const& place, Reading& reading) {
-  double const machine = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
-  double const needed = memory_of(count, variant), gib = 1024.0 * 1024 * 1024;
-  if (count <= max_particles && needed <= machine) return true;
-  reading.mistake(place, fmt::format("{:.0f} particles would need about {:.0f} GiB of memory; this machine has {:.0f} "
-                                     "GiB, and at most 1000000000 are allowed",
-                                     count, std::ceil(needed / gib), machine / gib));
-  return false;
-}
-
 /// The axis that a key names, from 0 on; `otherwise` if it is missing or wrong.
 int read_axis(Section& section, char const* key, int otherwise, Reading const& reading) {
   auto const word = section.word(key, axis_names(reading.dimension));
@@ -57,6 +47,16 @@ Wave wave_of(LoadOptions const& options, Section& section, Reading& reading) {
 }
 
 }  // namespace
+
+bool fits_memory(double count, ClassVariant const& variant, Place const& place, Reading& reading) {
+  double const machine = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
+  double const needed = memory_of(count, variant), gib = 1024.0 * 1024 * 1024;
+  if (count <= max_particles && needed <= machine) return true;
+  reading.mistake(place, fmt::format("{:.0f} particles would need about {:.0f} GiB of memory; this machine has {:.0f} "
+                                     "GiB, and at most 1000000000 are allowed",
+                                     count, std::ceil(needed / gib), machine / gib));
+  return false;
+}
 
 VelocityRipple read_velocity_ripple(Item const& item, Reading& reading) {
   if (!item.is(Item::Kind::table)) {

@@ -61,6 +61,7 @@ struct ReadMolecules {
 struct ReadEnsemble {
   std::string name;
   Place place, load_place, range_place;
+  Item const* table = nullptr;  ///< null: no table of the file is its own
   ParticleClass const* kind = nullptr;
   AnyEnsemble* particles = nullptr;
   std::unique_ptr<Integrator> integrator;
@@ -125,7 +126,7 @@ struct Settable {
 
 struct ReadEvent {
   double at = 0;
-  bool lasting = false;
+  enum class Kind { lasting, passing, adding } kind = Kind::passing;
   std::function<void(Simulation&)> happen;
 };
 
@@ -254,6 +255,10 @@ std::optional<LaplaceLaw> read_field_law(Section& section, OptionTable const& ke
 /// The keys that this leaves.
 OptionTable keys_but_of_the_law(OptionTable const& all);
 void read_ensembles(Section& document, Reading& reading);
+/// Particles for an ensemble that there is, made as `table` says (the key `add` of an event), and where it says nothing as
+/// the ensemble's own does. Random numbers are those of an ensemble of this `name`. Null, and mistakes, if it is wrong.
+std::shared_ptr<AnyEnsemble const> read_addition(Item const& table, ReadEnsemble const& to, std::string const& name,
+                                                 Reading& reading);
 /// What an ensemble of this class is made of. Nothing, and mistakes, if it is missing or wrong.
 std::optional<BoundMaterial> read_material(Section& ensemble, ParticleClass const& kind, Reading& reading);
 /// Whether particles of this class have an internal energy of their own (the field "internal_energy").

@@ -191,20 +191,35 @@ ScenarioTable const& table_named(std::string_view name) {
   throw Error("there is no table '" + std::string(name) + "'");
 }
 
-/// With `derived`, what ensembles may be beside [[classes]], whose fields are keys of theirs; else what they are closed
-/// to without them, in few words.
-std::string ensembles(bool derived) {
+/// Keys of [[ensembles]] and [[ensembles.set]], with the fields of all classes.
+std::pair<Members, Members> members_of_ensembles() {
   auto properties = properties_of(ensemble_options()), set = properties_of(set_options());
-  std::vector<std::string> classes;
-  std::string class_docs;
-  for (auto const& one : particle_classes()) {
-    classes.push_back(one.name);
-    class_docs += (class_docs.empty() ? "" : "; ") + one.name + ": " + one.doc;
+  for (auto const& one : particle_classes())
     for (auto const& field : one.variants.back().fields) {
       auto const said = something(fmt::format("a field, {}: {}", name_of(field.dimension), field.doc));
       if (field.name != "position" && !ensemble_options().find(field.name)) replace(properties, field.name, said);
       replace(set, field.name, said);
     }
+  return {properties, set};
+}
+
+/// Classes may be derived, whose fields are keys, too.
+Members open_members_of_ensembles() {
+  auto [properties, set] = members_of_ensembles();
+  replace(properties, "set", tables(table(set, false)));
+  std::vector<KindOf> loads;
+  for (auto const& kind : load_kinds()) loads.push_back({kind.name, kind.doc, &kind.options});
+  replace(properties, "load", kinds("kind", loads, {}));
+  return properties;
+}
+
+/// With `derived`, what ensembles may be beside [[classes]]; else what they are closed to without them, in few words.
+std::string ensembles(bool derived) {
+  std::vector<std::string> classes;
+  std::string class_docs;
+  for (auto const& one : particle_classes()) {
+    classes.push_back(one.name);
+    class_docs += (class_docs.empty() ? "" : "; ") + one.name + ": " + one.doc;
   }
   if (!derived) {
     auto const names_of = [](Members const& members) {
@@ -212,18 +227,27 @@ std::string ensembles(bool derived) {
       for (auto const& one : members) names.push_back(one.first);
       return object({{"enum", list(names)}});
     };
+    auto const [properties, set] = members_of_ensembles();
     std::string const some = object({{"items", object({{"propertyNames", names_of(set)}})}});
     return object(
         {{"items", object({{"propertyNames", names_of(properties)},
                            {"properties", object({{"class", object({{"enum", list(classes)}})}, {"set", some}})}})}});
   }
-  replace(properties, "set", tables(table(set, false)));
+  auto properties = open_members_of_ensembles();
   std::string const any = object({{"type", quoted_text("string")}, {"description", quoted_text("of [[classes]]")}});
   replace(properties, "class", fmt::format("{{\"anyOf\": [{}, {}]}}", words(classes, class_docs), any));
-  std::vector<KindOf> loads;
-  for (auto const& kind : load_kinds()) loads.push_back({kind.name, kind.doc, &kind.options});
-  replace(properties, "load", kinds("kind", loads, {}));
   return tables(table(properties, false));
+}
+
+/// Particles that an event adds to an ensemble.
+std::string addition() {
+  auto properties = open_members_of_ensembles();
+  std::erase_if(properties, [](auto const& one) {
+    return one.first == "name" || one.first == "class" || one.first == "integrator" || one.first == "colour" ||
+           one.first == "diameter" || one.first == "molecule" || one.first == "bonds" || one.first == "material" ||
+           one.first == "heat_capacity";
+  });
+  return table(properties, false);
 }
 
 /// Classes that a scenario derives have fields of their own: other keys are fields, too.
@@ -291,7 +315,7 @@ std::string scenario_schema() {
       {"dissipation", tables(kinds("kind", dissipations, properties_of(dissipation_pair_options())))},
       {"equilibrate", closed("equilibrate")},
       {"barostat", one_or_tables(closed("barostat"))},
-      {"events", tables(closed("events"))},
+      {"events", tables(closed("events", {{"add", addition()}}))},
       {"minimise", closed("minimise")},
       {"relaxation", closed("relaxation")},
       {"diagnoses", tables(kinds("kind", diagnoses, {}))},

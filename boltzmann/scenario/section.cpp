@@ -149,8 +149,7 @@ std::vector<std::string> read_texts(Item const& item, std::string_view name, Rea
 
 Item const* Section::find(std::string_view key) {
   if (std::find(allowed_.begin(), allowed_.end(), key) == allowed_.end()) allowed_.emplace_back(key);
-  Entry const* entry = table_.find(key);
-  return entry ? &entry->item : nullptr;
+  return item(key);
 }
 
 Item const* Section::need(std::string_view key, std::string_view example) {
@@ -202,8 +201,8 @@ bool Section::boolean(std::string_view key, bool otherwise) {
 }
 
 Place Section::place(std::string_view key) const {
-  Entry const* entry = table_.find(key);
-  return entry ? entry->item.place : table_.place;
+  Item const* found = item(key);
+  return found ? found->place : table_.place;
 }
 
 void Section::explain(Option const& option, std::string value, std::optional<Dimension> dimension) {

@@ -58,19 +58,20 @@ std::string about(std::string_view name, std::string_view message);
 
 class Section {
  public:
-  /// `title` is how messages call the table: "[run]", "[[ensembles]] 'atoms'".
-  Section(Item const& table, std::string title, ReadContext& context)
-      : table_(table), title_(std::move(title)), context_(context) {}
+  /// `title` is how messages call the table: "[run]", "[[ensembles]] 'atoms'". A key that it does not have may stand in
+  /// `otherwise`.
+  Section(Item const& table, std::string title, ReadContext& context, Item const* otherwise = nullptr)
+      : table_(table), otherwise_(otherwise), title_(std::move(title)), context_(context) {}
 
   /// The value of a key, or nullptr; the key is then one of those allowed here.
   Item const* find(std::string_view key);
   /// The same; a mistake with an example if it is missing.
   Item const* need(std::string_view key, std::string_view example);
-  bool has(std::string_view key) const { return table_.find(key) != nullptr; }
+  bool has(std::string_view key) const { return entry(key) != nullptr; }
   /// The value of a key, or nullptr, without allowing it.
   Item const* item(std::string_view key) const {
-    Entry const* entry = table_.find(key);
-    return entry ? &entry->item : nullptr;
+    Entry const* found = entry(key);
+    return found ? &found->item : nullptr;
   }
   /// Names a key that is known here, but not one to be proposed.
   void mark_used(std::string_view key) { known_.emplace_back(key); }
@@ -115,7 +116,13 @@ class Section {
   void finish();
 
  private:
+  Entry const* entry(std::string_view key) const {
+    Entry const* own = table_.find(key);
+    return own || !otherwise_ ? own : otherwise_->find(key);
+  }
+
   Item const& table_;
+  Item const* otherwise_;
   std::string title_;
   ReadContext& context_;
   std::vector<std::string> allowed_, known_, refused_;

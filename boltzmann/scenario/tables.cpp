@@ -465,9 +465,16 @@ OptionTable make_event_options() {
   all.add("at", &E::at, number(dimensions::time, positive),
           "since the start of the run; at the end of the step that ends "
           "there or just behind");
+  all.add("every", &E::every, number(dimensions::time, positive), "and again after so long, and so on", "once");
+  all.add("times", &E::times, whole(1, 10'000), "how often in all");
   all.add_said("set", "a table of keys by their paths, as those of `--set`, and values",
                "numbers that other tables have said: `{ \"dissipation.0.temperature\" = \"100 K\" }`", "none");
-  all.add_said("on", ensemble_or_list, "whose velocities are changed", "all that have velocities");
+  all.add_said("add", "a table, `{ load = { ... }, velocity = [1, 0] }`",
+               "particles are added to the ensemble `on`: keys of [[ensembles]], of which those that are left out are "
+               "as its own table has them, but velocities are zero",
+               "none");
+  all.add_said("on", ensemble_or_list, "whose velocities are changed; or to whom particles are added",
+               "all that have velocities");
   all.add_said("where", "a [formula](#formulas)", "of those the ones for which it is true then", "all");
   all.add("temperature", &E::temperature, number(dimensions::temperature, not_negative),
           "velocities, relative to their common one, are scaled to it: a quench");

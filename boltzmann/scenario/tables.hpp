@@ -81,9 +81,11 @@ OptionTable const& set_options();
 /// [equilibrate]: a heat bath for a while.
 OptionTable const& equilibration_options();
 
-/// [[events]]; what is set and who is meant are read by code.
+/// [[events]]; what is set or added and who is meant are read by code.
 struct EventOptions {
   double at = 0;
+  std::optional<double> every;
+  std::int64_t times = 1;
   std::optional<double> temperature, scale;
   std::optional<std::array<double, 3>> kick;
 };

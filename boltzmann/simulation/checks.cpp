@@ -14,10 +14,13 @@
 
 namespace boltzmann {
 
-void Simulation::check() {
+void Simulation::check() { check(false); }
+
+/// With particles that have been `added` while it runs.
+void Simulation::check(bool added) {
   if (checked_) return;
   make_ready();
-  if (!minimisation_) check_start();
+  if (!minimisation_) check_start(added);
   checked_ = true;
 }
 
@@ -78,14 +81,16 @@ std::vector<Moved> Simulation::moved() const {
   return all;
 }
 
-/// Forces that are finite, and not too large for the first step of a run; what a later failure may be told of.
-void Simulation::check_start() {
+/// Forces that are finite, and not too large for the first step of a run, or with particles that have been added; what a
+/// later failure may be told of.
+void Simulation::check_start(bool added) {
   check_influences();
   collision_step_ = std::numeric_limits<double>::infinity();
   for (auto const* scheme : schemes_) collision_step_ = std::min(collision_step_, scheme->collision_step());
-  StartForces const forces = forces_at_start(moved(), ensembles_, schemes_.front()->box(), step_size_, collision_step_);
+  StartForces const forces =
+      forces_at_start(moved(), ensembles_, schemes_.front()->box(), step_size_, collision_step_, added);
   force_step_ = forces.step;
-  if (!begun_ && !substeps_ && !forces.too_large.empty()) throw Error(forces.too_large);
+  if ((!begun_ || added) && !substeps_ && !forces.too_large.empty()) throw Error(forces.too_large);
 }
 
 /// The integrator of an ensemble, with its stages and with what it takes over from the schemes.

@@ -16,7 +16,7 @@ struct Conserved {
   std::optional<double> energy;  ///< kinetic + potential + external + internal, less what has come from outside: work
                                  ///< and heat; none if a law gives no energy or a class no mass
   std::string no_energy;         ///< why there is none
-  double work = 0;               ///< that moving walls have done since the start of the run
+  double work = 0;               ///< that moving walls, and particles that were added, have done since the start
   double heat = 0;               ///< that heat baths have given since the start of the run
   std::optional<std::array<double, 3>> momentum;          ///< none where a class has no mass
   std::optional<std::array<double, 3>> angular_momentum;  ///< about the origin; none on periodic axes

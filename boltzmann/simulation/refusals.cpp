@@ -2,6 +2,8 @@
 #include <boltzmann/simulation/refusals.hpp>
 #include <boltzmann/simulation/simulation.hpp>
 
+#include <fmt/format.h>
+
 #include <optional>
 
 namespace boltzmann {
@@ -10,6 +12,13 @@ std::vector<std::string> refusals(Simulation& simulation, std::span<std::unique_
   std::vector<std::string> lines(diagnoses.size());
   std::optional<EnergyAndVirial> measures;
   for (std::size_t d = 0; d < diagnoses.size(); ++d) {
+    if (diagnoses[d]->by_number() && simulation.numbers_change()) {
+      lines[d] = fmt::format(
+          "the diagnosis of '{}' follows particles by their numbers, which change where particles come and go between "
+          "steps",
+          diagnoses[d]->columns().front().name);
+      continue;
+    }
     if (!diagnoses[d]->needs_energies() && !diagnoses[d]->needs_virial()) continue;
     if (!measures) {
       simulation.check();

@@ -46,7 +46,9 @@ void Simulation::check_shear() {
   if (!barostats_.empty()) throw Error("shear: a barostat stretches the box, and one that is sheared is not stretched");
   if (!changes_.empty()) throw Error("shear: adaptations, which know their box, don't go with it");
   if (std::any_of(events_.begin(), events_.end(), [](Event const& event) { return !event.lasting; }))
-    throw Error("shear: events that change velocities, which are not those relative to the flow, don't go with it");
+    throw Error(
+        "shear: events that change velocities, or add particles with velocities, which are not those relative to the "
+        "flow, don't go with it");
   for (auto* dissipation : dissipations_) dissipation->act_in_flow(box);
   for (auto const& equilibration : equilibrations_) equilibration.dissipation->act_in_flow(box);
 }

@@ -2,6 +2,8 @@
 #include <boltzmann/core/exact_sum.hpp>
 #include <boltzmann/core/team.hpp>
 #include <boltzmann/schemes/after_others.hpp>
+#include <boltzmann/simulation/conserved.hpp>
+#include <boltzmann/simulation/keeps_numbers.hpp>
 #include <boltzmann/simulation/run_votes.hpp>
 #include <boltzmann/simulation/simulation.hpp>
 
@@ -89,12 +91,34 @@ void Simulation::add(Barostat barostat) {
 }
 
 void Simulation::happen(double time, std::function<void()> event, bool lasting) {
+  schedule(time, std::move(event), lasting, false);
+}
+
+void Simulation::add_particles(double time, std::function<void()> add) { schedule(time, std::move(add), false, true); }
+
+bool Simulation::numbers_change() const {
+  auto const changes = adaptations();
+  return std::any_of(changes.begin(), changes.end(), [](auto const* one) { return !keeps_numbers(*one); }) ||
+         std::any_of(events_.begin(), events_.end(), [](Event const& event) { return event.adds; });
+}
+
+/// Those of one step in the order in which they were told.
+void Simulation::schedule(double time, std::function<void()> event, bool lasting, bool adds) {
   if (!(time > 0) || !std::isfinite(time))
     throw Error(fmt::format("an event happens at a positive time since the start of the run, not at {}", time));
   // A time of so many steps, but for rounding, is that many.
   double const step = std::ceil(time / std::abs(step_size_) * (1 - 1e-12));
   if (step > 9e15) throw Error(fmt::format("an event at {} would happen after {:.3g} steps", told_time(time), step));
-  events_.push_back({static_cast<std::int64_t>(step), std::move(event), lasting});
+  auto const at = static_cast<std::int64_t>(step);
+  events_.insert(events_.begin() + static_cast<std::ptrdiff_t>(first_event(at + 1)),
+                 {at, std::move(event), lasting, adds});
+}
+
+/// The first of this step or a later one.
+std::size_t Simulation::first_event(std::int64_t step) const {
+  auto const found = std::lower_bound(events_.begin(), events_.end(), step,
+                                      [](Event const& event, std::int64_t at) { return event.step < at; });
+  return static_cast<std::size_t>(found - events_.begin());
 }
 
 void Simulation::integrate(AnyEnsemble& ensemble, std::unique_ptr<Integrator> integrator) {
@@ -260,11 +284,6 @@ void Simulation::take_particles() {
 }
 
 void Simulation::adapt_now() {
-  auto const sizes = [&] {
-    std::vector<std::size_t> all;
-    for (auto const& part : parts_) all.push_back(part.ensemble->size());
-    return all;
-  };
   bool completed = false, changed = false;
   for (auto const& change : changes_) {
     if (step_ % change.every != 0 || change.forgotten) continue;
@@ -293,24 +312,54 @@ void Simulation::adapt_now() {
 }
 
 void Simulation::happen_now() {
-  bool some = false;
-  for (auto const& event : events_) {
-    if (event.step != step_) continue;
-    if (!some) update_derived_fields();
-    interrupt_division();
-    some = true;
-    try {
-      event.happen();
-    } catch (Error const& error) {
-      throw Error(fmt::format("step {}: {}", step_, error.what()));
+  std::size_t k = first_event(step_);
+  if (k == events_.size() || events_[k].step != step_) return;
+  update_derived_fields();
+  bool added = false;
+  try {
+    for (; k < events_.size() && events_[k].step == step_; ++k) {
+      interrupt_division();
+      auto const happen = events_[k].happen;  // it may bring others
+      auto const before = sizes();
+      if (events_[k].adds) {
+        added = true;
+        add_now(happen);
+      } else {
+        happen();
+        if (sizes() != before)
+          throw Error("an event that adds particles is told by add_particles() (C++), and none takes them away");
+      }
     }
+    checked_ = false;  // laws and methods may be others
+    check(added);
+  } catch (Error const& error) {
+    throw Error(fmt::format("step {}: {}", step_, error.what()));
+  } catch (PhysicsFailure const& failure) {
+    throw PhysicsFailure(fmt::format("step {}: {}", step_, failure.what()));
   }
-  if (!some) return;
-  checked_ = false;  // laws and methods may be others
-  check();
   influences_.particles_changed();
   take_particles();
   divide();
+}
+
+/// What it does to the energy, as far as that is known, is work.
+void Simulation::add_now(std::function<void()> const& add) {
+  auto const before = sizes();
+  auto const energy = conserved(*this).energy;
+  add();
+  auto const now = sizes();
+  for (std::size_t e = 0; e < before.size(); ++e)
+    if (now[e] < before[e])
+      throw Error(fmt::format("an event adds particles and takes none away, but '{}' has had {} and has {} now",
+                              parts_[e].ensemble->name(), before[e], now[e]));
+  take_particles();
+  if (auto const changed = conserved(*this).energy; energy && changed) work_ += *changed - *energy;
+}
+
+std::vector<std::size_t> Simulation::sizes() const {
+  std::vector<std::size_t> all;
+  for (auto const& part : parts_) all.push_back(part.ensemble->size());
+  return all;
 }
 
 bool Simulation::observation_due() const {
@@ -321,7 +370,7 @@ bool Simulation::observation_due() const {
 bool Simulation::change_due() const {
   return std::any_of(changes_.begin(), changes_.end(),
                      [&](Change const& one) { return !one.forgotten && step_ % one.every == 0; }) ||
-         std::any_of(events_.begin(), events_.end(), [&](Event const& event) { return event.step == step_; });
+         first_event(step_) != first_event(step_ + 1);
 }
 
 void Simulation::observe_now() const {

@@ -91,6 +91,13 @@ class Simulation {
   /// done again where a run is resumed behind it; else it changes particles, which a checkpoint holds. A run with events
   /// can't go backwards. Error unless the time is positive.
   void happen(double time, std::function<void()> event, bool lasting);
+  /// Particles are added once, at such a time too: `add` makes ensembles longer and leaves the rows that are there as
+  /// they are (append() of loaders/append.hpp). By how much that changes the energy is counted as work. The run ends with
+  /// an Error that names the step if they can't be where they are, or their forces would throw somebody in one step
+  /// further than the law's length.
+  void add_particles(double time, std::function<void()> add);
+  /// Whether particles come or go while it runs, by adaptations or by such events.
+  bool numbers_change() const;
 
   /// Before the first step of a run that begins (not of one that is resumed), so many steps are done with this
   /// dissipation in place of the simulation's own, on velocities relative to the common one of each ensemble: a body is
@@ -206,7 +213,7 @@ class Simulation {
   struct Event {
     std::int64_t step;
     std::function<void()> happen;
-    bool lasting;
+    bool lasting, adds;
   };
 
   struct Equilibration {
@@ -221,8 +228,9 @@ class Simulation {
   std::pair<std::vector<Descending>, double> descending(MinimiseOptions const& options) const;
 
   // checks.cpp: before the first step.
+  void check(bool added);
   void make_ready();
-  void check_start();
+  void check_start(bool added);
   std::vector<Moved> moved() const;
   Part const& ready_part(AnyEnsemble& ensemble);
   void check_methods();
@@ -285,8 +293,12 @@ class Simulation {
   void take_lengths();
   void accept_particles();
   void take_particles();
+  std::vector<std::size_t> sizes() const;
   void adapt_now();
+  void schedule(double time, std::function<void()> event, bool lasting, bool adds);
+  std::size_t first_event(std::int64_t step) const;
   void happen_now();
+  void add_now(std::function<void()> const& add);
   std::array<bool, 3> kept_momentum() const;
   StretchedSystem stretched_system();
   void stretch_box(double dt);
@@ -308,7 +320,7 @@ class Simulation {
   std::uint64_t attendants_ = 0;
   std::vector<std::unique_ptr<Barostat>> barostats_;
   std::array<bool, 3> momentum_is_kept_{};
-  std::vector<Event> events_;
+  std::vector<Event> events_;  // by their steps
   std::vector<Equilibration> equilibrations_;
   std::optional<MinimiseOptions> minimisation_;
   std::optional<Minimised> minimised_;

@@ -73,7 +73,7 @@ double with_two_digits_below(double x) {
 }  // namespace
 
 StartForces forces_at_start(std::vector<Moved> const& moved, std::vector<AnyEnsemble*> const& all, Box const& box,
-                            double step_size, double collision_step) {
+                            double step_size, double collision_step, bool added) {
   StartForces found{infinite, ""};
   Thrown worst;
   double length = 0, allowed = 0;
@@ -101,19 +101,21 @@ StartForces forces_at_start(std::vector<Moved> const& moved, std::vector<AnyEnse
                                              : distance < 0.25 * mean && found.step < 0.1 * std::abs(step_size);
   if (other.of && overlap) {
     found.too_large = fmt::format(
-        "{} and {} are only {} apart at the start: their force would move the first by {} in one step, further than "
-        "{}; "
-        "let [minimise] push them apart (minimise() in C++), or load them further apart (minimum_distance)",
-        worst.particle.name(), other.name(), told(distance), told(way), further);
+        "{} and {} are only {} apart {}: their force would move the first by {} in one step, further than {}; {}",
+        worst.particle.name(), other.name(), told(distance), added ? "when particles are added" : "at the start",
+        told(way), further,
+        added ? "add them where nobody is"
+              : "let [minimise] push them apart (minimise() in C++), or load them further apart (minimum_distance)");
     return found;
   }
   double const safe = std::min(found.step, collisions_followed * collision_step);
   found.too_large = fmt::format(
-      "the step {} is too long for the forces of the start: {} would move by {}, further than {}{}; take a step below "
-      "{}, or let [minimise] find a start with small forces (minimise() in C++)",
-      units.text(std::abs(step_size), dimensions::time, 3), worst.particle.name(), told(way), further,
+      "the step {} is too long for the forces {}: {} would move by {}, further than {}{}; take a step below {}{}",
+      units.text(std::abs(step_size), dimensions::time, 3), added ? "when particles are added" : "of the start",
+      worst.particle.name(), told(way), further,
       other.of ? fmt::format(" ({} is nearest, {} away)", other.name(), told(distance)) : "",
-      units.text(with_two_digits_below(safe), dimensions::time, 3));
+      units.text(with_two_digits_below(safe), dimensions::time, 3),
+      added ? "" : ", or let [minimise] find a start with small forces (minimise() in C++)");
   return found;
 }
 

@@ -21,8 +21,8 @@ struct StartForces {
 };
 
 /// Of the influences as they stand. What is advised also suits the `collision_step`. Classes without mass and velocity are
-/// left out.
+/// left out. `added`: in the middle of a run, with particles that have just been added.
 StartForces forces_at_start(std::vector<Moved> const& moved, std::vector<AnyEnsemble*> const& all, Box const& box,
-                            double step_size, double collision_step);
+                            double step_size, double collision_step, bool added);
 
 }  // namespace boltzmann

@@ -188,7 +188,7 @@ class Simulation:
         self._say("box.walls", keys)
 
     def event(self, at, **keys) -> None:
-        """[[events]]: something happens once, at a time."""
+        """[[events]]: something happens at a time, once or every so often."""
         self._say("events", {"at": at, **keys})
 
     def view(self, name: str, drawing: str = "cartesian", **keys) -> None:

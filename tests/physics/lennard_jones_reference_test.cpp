@@ -12,6 +12,9 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <memory>
+#include <numbers>
+#include <string>
 #include <vector>
 
 namespace boltzmann::lennard_jones_reference_test {
@@ -85,48 +88,134 @@ TEST_F(Configuration, HasTheEnergiesOfNist) {
 struct State {
   double temperature, density, energy, pressure;
 };
+
+/// Means of a run, with their errors: energies are those between atoms, of one.
+struct Means {
+  Estimate temperature, energy, pressure;
+};
+
+/// 500 atoms from a lattice in `more` (a bath, or none behind an equilibration), of which as many samples are taken.
+class Liquid {
+ public:
+  Liquid(double temperature, double density, double cutoff, bool tail, std::string const& more)
+      : volume_(n / density), scenario_(parse_scenario(text(temperature, density, cutoff, tail, more), "fluid.toml")) {}
+
+  Simulation& simulation() { return *scenario_->simulation; }
+  EnergyAndVirial tail() {
+    for (auto const& scheme : scenario_->schemes)
+      if (auto* tail = dynamic_cast<TailCorrection*>(scheme.get())) return tail->measure();
+    return EnergyAndVirial::known();
+  }
+  double kinetic() {
+    double sum = 0;
+    auto const& field = scenario_->ensembles[0]->field("velocity");
+    for (std::size_t i = 0; i < scenario_->ensembles[0]->size(); ++i)
+      for (int c = 0; c < 3; ++c) sum += 0.5 * std::pow(scenario_->ensembles[0]->row(i)[field.offset + c], 2);
+    return sum;
+  }
+  /// Velocities are scaled so that an atom has this energy, kinetic and of pairs.
+  void give_energy(double energy) {
+    auto const& field = scenario_->ensembles[0]->field("velocity");
+    double const factor = std::sqrt((energy * n - of(simulation().measure()).energy) / kinetic());
+    for (std::size_t i = 0; i < scenario_->ensembles[0]->size(); ++i)
+      for (int c = 0; c < 3; ++c) scenario_->ensembles[0]->row(i)[field.offset + c] *= factor;
+  }
+  /// `freedoms`: of the kinetic energy.
+  Means run(int samples, double freedoms) {
+    std::vector<double> temperatures, energies, pressures;
+    for (int sample = 0; sample < samples; ++sample) {
+      simulation().run(10);
+      auto const now = of(simulation().measure());
+      temperatures.push_back(2 * kinetic() / freedoms);
+      energies.push_back(now.energy / n);
+      pressures.push_back((2 * kinetic() + now.virial) / (3 * volume_));
+    }
+    return {estimate(temperatures, 10), estimate(energies, 10), estimate(pressures, 10)};
+  }
+
+  static constexpr double n = 500;
+
+ private:
+  static std::string text(double temperature, double density, double cutoff, bool tail, std::string const& more) {
+    double const side = std::cbrt(n / density);
+    return fmt::format(
+        "[units]\nbase = \"reduced\"\n[box]\nlow = [0, 0, 0]\nhigh = [{0}, {0}, {0}]\nboundary = \"periodic\"\n"
+        "[run]\nstep = 0.005\nsteps = 1\ncutoff = {3}\nshifted = {4}\nseed = 5\n[[ensembles]]\nname = \"atoms\"\n"
+        "class = \"Newton\"\ntemperature = {1}\nremove_drift = true\nload = {{ kind = \"block\", lattice = \"fcc\", "
+        "spacing = {2}, counts = [5, 5, 5], jitter = 0.05 }}\n[[influences]]\non = \"atoms\"\nlaw = "
+        "\"lennard-jones\"\ndepth = 1\nr0 = 1.122462048309373\ntail = {5}\n{6}",
+        side, temperature, side / 5 / std::sqrt(2.0), cutoff, !tail, tail, more);
+  }
+
+  double volume_;
+  std::unique_ptr<ScenarioSimulation> scenario_;
+};
+
 class Fluid : public testing::TestWithParam<State> {};
 
 // NIST's table of Monte Carlo runs of 500 atoms at constant volume, with tails; here by Langevin's bath.
 TEST_P(Fluid, HasTheEnergyAndThePressureOfNist) {
   auto const [temperature, density, energy, pressure] = GetParam();
-  constexpr double n = 500;
-  double const side = std::cbrt(n / density), volume = n / density;
-  auto const scenario = parse_scenario(
-      fmt::format(
-          "[units]\nbase = \"reduced\"\n[box]\nlow = [0, 0, 0]\nhigh = [{0}, {0}, {0}]\nboundary = \"periodic\"\n"
-          "[run]\nstep = 0.005\nsteps = 1\ncutoff = 3\nshifted = false\nseed = 5\n[[ensembles]]\nname = \"atoms\"\n"
-          "class = \"Newton\"\ntemperature = {1}\nload = {{ kind = \"block\", lattice = \"fcc\", spacing = {2}, "
-          "counts = [5, 5, 5], jitter = 0.05 }}\n[[influences]]\non = \"atoms\"\nlaw = \"lennard-jones\"\ndepth = "
-          "1\nr0 = 1.122462048309373\ntail = true\n[[dissipation]]\nkind = \"langevin\"\non = \"atoms\"\n"
-          "temperature = {1}\nrate = 1\n",
-          side, temperature, side / 5 / std::sqrt(2.0)),
-      "fluid.toml");
-  auto& simulation = *scenario->simulation;
-  simulation.run(1500);
-  std::vector<double> energies, pressures;
-  for (int sample = 0; sample < 600; ++sample) {
-    simulation.run(10);
-    auto const now = of(simulation.measure());
-    double kinetic = 0;
-    for (std::size_t i = 0; i < scenario->ensembles[0]->size(); ++i) {
-      auto const& field = scenario->ensembles[0]->field("velocity");
-      for (int c = 0; c < 3; ++c) kinetic += std::pow(scenario->ensembles[0]->row(i)[field.offset + c], 2);
-    }
-    energies.push_back(now.energy / n);
-    pressures.push_back((kinetic + now.virial) / (3 * volume));
-  }
-  auto const u = estimate(energies, 10), p = estimate(pressures, 10);
-  EXPECT_NEAR(u.mean, energy, 5 * std::hypot(u.error, 0.0005));
-  EXPECT_NEAR(p.mean, pressure, 5 * std::hypot(p.error, 0.002));
+  Liquid liquid(
+      temperature, density, 3, true,
+      fmt::format("[[dissipation]]\nkind = \"langevin\"\non = \"atoms\"\ntemperature = {}\nrate = 1\n", temperature));
+  liquid.simulation().run(1500);
+  auto const means = liquid.run(600, 3 * Liquid::n);
+  EXPECT_NEAR(means.energy.mean, energy, 5 * std::hypot(means.energy.error, 0.0005));
+  EXPECT_NEAR(means.pressure.mean, pressure, 5 * std::hypot(means.pressure.error, 0.002));
   // The tails are far more than what is left to chance.
-  EXPECT_LT(u.error, 0.015);
-  EXPECT_LT(p.error, 0.05);
+  EXPECT_LT(means.energy.error, 0.015);
+  EXPECT_LT(means.pressure.error, 0.05);
+  // Without them there is less by as much: a uniform fluid beyond 3 sigma.
+  auto const tail = of(liquid.tail());
+  double const x = std::pow(3.0, -3), pi = std::numbers::pi;
+  EXPECT_NEAR(tail.energy / Liquid::n, 8 * pi / 3 * density * (x * x * x / 3 - x), 1e-12);
+  EXPECT_NEAR(tail.virial / Liquid::n, 16 * pi * density * (2 * x * x * x / 3 - x), 1e-12);
 }
 
 INSTANTIATE_TEST_SUITE_P(OfNist, Fluid,
-                         testing::Values(State{0.85, 0.776, -5.5121, 0.0067714}, State{0.90, 0.820, -5.7456, 0.82386}),
+                         testing::Values(State{0.85, 0.776, -5.5121, 0.0067714}, State{0.90, 0.820, -5.7456, 0.82386},
+                                         State{0.85, 0.860, -6.0305, 1.2660}, State{0.90, 0.776, -5.4689, 0.24056}),
                          [](auto const& info) { return fmt::format("State{}", info.index); });
+
+std::string bath_before(double temperature) {
+  return fmt::format("[equilibrate]\ntemperature = {}\nrate = 1\ntime = 7.5\n", temperature);
+}
+
+// At constant energy, between two of these states: whatever temperature comes of it, energy and pressure are on the line
+// between theirs (which is 1e-4 from the curve).
+TEST(FluidOfConstantEnergy, HasTheEnergyAndThePressureOfNist) {
+  State const cold{0.85, 0.820, -5.7947, 0.55355}, warm{0.90, 0.820, -5.7456, 0.82386};
+  Liquid liquid(0.875, cold.density, 3, true, bath_before(0.875));
+  auto const means = liquid.run(600, 3 * (Liquid::n - 1));
+  auto const at = [&](double low, double high) { return (high - low) / (warm.temperature - cold.temperature); };
+  double const above = means.temperature.mean - cold.temperature, du = at(cold.energy, warm.energy),
+               dp = at(cold.pressure, warm.pressure);
+  EXPECT_NEAR(means.temperature.mean, 0.875, 0.05);
+  EXPECT_NEAR(means.energy.mean, cold.energy + du * above,
+              5 * std::hypot(means.energy.error, du * means.temperature.error, 0.0005));
+  EXPECT_NEAR(means.pressure.mean, cold.pressure + dp * above,
+              5 * std::hypot(means.pressure.error, dp * means.temperature.error, 0.002));
+  EXPECT_LT(means.energy.error, 0.015);
+  EXPECT_LT(means.pressure.error, 0.05);
+}
+
+// Without tails: the fluid that is cut and shifted at 2.5 sigma, at constant energy. The equation of state of M. Thol, G.
+// Rutkai, R. Span, J. Vrabec and R. Lustig, Int. J. Thermophys. 36, 25 (2015), has E = -2.9280 and p = 0.9909 at a density
+// of 0.75 and a temperature of 1 (Allen and Tildesley's guide to their programs).
+TEST(FluidOfConstantEnergy, HasTheTemperatureAndThePressureOfAShiftedLaw) {
+  Liquid liquid(1.0, 0.75, 2.5, false, bath_before(1.0));
+  liquid.simulation().run(1);
+  liquid.give_energy(-2.9280);
+  liquid.simulation().run(500);
+  auto const means = liquid.run(600, 3 * (Liquid::n - 1));
+  EXPECT_NEAR(means.temperature.mean, 1, 5 * std::hypot(means.temperature.error, 0.001));
+  EXPECT_NEAR(means.energy.mean, -2.9280 - 1.5, 5 * std::hypot(means.energy.error, 0.001));
+  EXPECT_NEAR(means.pressure.mean, 0.9909, 5 * std::hypot(means.pressure.error, 0.002));
+  EXPECT_LT(means.temperature.error, 0.005);
+  EXPECT_LT(means.energy.error, 0.01);
+  EXPECT_LT(means.pressure.error, 0.03);
+}
 
 }  // namespace
 }  // namespace boltzmann::lennard_jones_reference_test

@@ -5,7 +5,10 @@
 #include <boltzmann/diagnoses/measures.hpp>
 #include <boltzmann/dissipation/heat_bath.hpp>
 #include <boltzmann/dissipation/rescaling_bath.hpp>
+#include <boltzmann/loaders/append.hpp>
+#include <boltzmann/particles/newton.hpp>
 #include <boltzmann/scenario/scenario.hpp>
+#include <boltzmann/simulation/conserved.hpp>
 
 #include <gtest/gtest.h>
 #include <tests/message.hpp>
@@ -52,9 +55,11 @@ bool same(std::vector<double> const& a, std::vector<double> const& b) {
 /// The same scenario, from where another run stands.
 Scenario resumed(ScenarioSimulation const& from, std::string const& text) {
   auto other = scenario(text);
-  for (std::size_t e = 0; e < from.ensembles.size(); ++e)
+  for (std::size_t e = 0; e < from.ensembles.size(); ++e) {
+    other->ensembles[e]->resize(from.ensembles[e]->size());
     std::copy_n(from.ensembles[e]->row(0), from.ensembles[e]->size() * from.ensembles[e]->stride(),
                 other->ensembles[e]->row(0));
+  }
   Simulation const& simulation = *from.simulation;
   other->simulation->restore(simulation.step(), simulation.step_size(), simulation.seed(), simulation.state());
   return other;
@@ -190,6 +195,220 @@ TEST(Events, QuenchAndScaleVelocities) {
   EXPECT_EQ(message([&] { run->simulation->rewind(1); }), "a run with events can't go backwards");
 }
 
+// ---- Particles that are added ----
+
+/// One argon atom in a box, and another one that is shot at it at t = 0.1, in every space and box.
+TEST(Additions, AreWorkAndFlyOn) {
+  for (int dimension = 1; dimension <= 3; ++dimension)
+    for (std::string const boundary : {"periodic", "reflecting", "open"}) {
+      auto const at = [&](std::string const& x, std::string const& others) {
+        std::string all = "[" + x;
+        for (int a = 1; a < dimension; ++a) all += ", " + others;
+        return all + "]";
+      };
+      std::string const text = "[units]\nbase = \"reduced\"\n[box]\nlow = " + at("0", "0") +
+                               "\nhigh = " + at("20", "20") + "\nboundary = \"" + boundary +
+                               "\"\n[run]\nstep = 0.01\nsteps = 60\ncutoff = 3\n[[ensembles]]\nname = \"a\"\nclass = "
+                               "\"Newton\"\nmass = 2\nvelocity = " +
+                               at("0", "0") + "\nload = { kind = \"positions\", positions = [" + at("9", "5") +
+                               "] }\n[[influences]]\nlaw = \"lennard-jones\"\non = \"a\"\ndepth = 1\nr0 = 1.2\n"
+                               "[[events]]\nat = 0.1\non = \"a\"\nadd = { velocity = " +
+                               at("-3", "0") + ", load = { kind = \"positions\", positions = [" + at("11.5", "5") +
+                               ", " + at("16", "5") + "] } }\n";
+      auto const run = scenario(text);
+      Simulation& simulation = *run->simulation;
+      AnyEnsemble const& a = *run->ensembles[0];
+      simulation.run(9);
+      EXPECT_EQ(a.size(), 1U);
+      simulation.run(1);
+      ASSERT_EQ(a.size(), 3U);
+      EXPECT_EQ(a.row(0)[0], 9);
+      EXPECT_EQ(a.row(1)[0], 11.5);
+      auto const pair = [](double r) { return std::pow(1.2 / r, 12) - 2 * std::pow(1.2 / r, 6); };
+      double const energy = 2 * 0.5 * 2 * 9 + pair(2.5) - pair(3);
+      EXPECT_NEAR(simulation.measure().work, energy, 1e-12) << dimension << boundary;
+      auto const start = conserved(simulation);
+      simulation.run(50);
+      auto const end = conserved(simulation);
+      EXPECT_NEAR(a.row(2)[0], 16 - 3 * 0.5, 1e-12);  // alone
+      EXPECT_LT(a.row(0)[0], 9);                      // hit
+      EXPECT_NEAR(*start.energy, 0, 1e-12);
+      EXPECT_NEAR(*end.energy, 0, 0.02);
+      EXPECT_EQ(end.work, start.work);
+    }
+}
+
+/// The same fields as the ensemble's own, other numbers by chance each time, in the order of the file.
+TEST(Additions, AreLikeTheOthersButForWhatTheySay) {
+  std::string wide = fluid;
+  wide.replace(wide.find("high = [12, 12]"), 15, "high = [12, 40]");
+  auto const run = scenario(
+      wide +
+      "[[events]]\nat = 0.05\nevery = 0.05\ntimes = 3\non = \"b\"\nadd = { number = 4, temperature = 2, drift = [9, "
+      "0], "
+      "load = { kind = \"random\", low = [0, 14], high = [12, 20], minimum_distance = 1.2 } }\n"
+      "[[events]]\nat = 0.1\non = \"b\"\nadd = { mass = 5, load = { kind = \"positions\", positions = [[6, 30]] } }\n"
+      "[[events]]\nat = 0.1\non = \"b\"\nkick = [0, 1]\nwhere = \"mass > 4\"\n");
+  AnyEnsemble const& b = *run->ensembles[1];
+  int const mass = b.field("mass").offset, velocity = b.field("velocity").offset;
+  EXPECT_EQ(b.size(), 50U);
+  run->simulation->run(10);
+  ASSERT_EQ(b.size(), 54U);
+  std::vector<double> first(b.row(50), b.row(50) + 4 * b.stride());
+  for (std::size_t i = 50; i < 54; ++i) {
+    EXPECT_EQ(b.row(i)[mass], 2);
+    EXPECT_GT(b.row(i)[1], 14);
+    EXPECT_LT(b.row(i)[1], 20);
+    EXPECT_NEAR(b.row(i)[velocity], 9, 5);
+  }
+  run->simulation->run(10);
+  ASSERT_EQ(b.size(), 59U);
+  for (std::size_t i = 54; i < 58; ++i) EXPECT_NE(b.row(i)[velocity], first[(i - 54) * b.stride() + velocity]);
+  EXPECT_EQ(b.row(58)[mass], 5);
+  EXPECT_EQ(b.row(58)[0], 6);
+  EXPECT_EQ(b.row(58)[velocity + 1], 1);  // kicked behind its arrival
+  run->simulation->run(10);
+  EXPECT_EQ(b.size(), 63U);
+}
+
+struct Growing {
+  std::string name, text, events;
+  double forces = 1e-10;  // of the largest: how well they are known
+};
+
+std::string space(std::string const& low, std::string const& high, std::string const& boundary,
+                  std::string const& run = "cutoff = 2.5\n") {
+  return "[units]\nbase = \"reduced\"\n[box]\nlow = " + low + "\nhigh = " + high + "\nboundary = \"" + boundary +
+         "\"\n[run]\nstep = 0.004\nsteps = 60\n" + run;
+}
+std::string ensemble(std::string const& name, std::string const& kind, std::string const& more) {
+  return "[[ensembles]]\nname = \"" + name + "\"\nclass = \"" + kind + "\"\n" + more;
+}
+
+/// Particles come at steps 25 and 50.
+std::string comes(std::string const& on, std::string const& add) {
+  return "[[events]]\nat = 0.1\nevery = 0.1\ntimes = 2\non = \"" + on + "\"\nadd = { " + add + " }\n";
+}
+
+std::vector<Growing> growing() {
+  std::string const argon = "[[influences]]\nlaw = \"lennard-jones\"\non = \"a\"\ndepth = 1\nr0 = 1.12\n",
+                    cube =
+                        "load = { kind = \"block\", lattice = \"fcc\", spacing = 1.3, counts = [3, 3, 3], origin = "
+                        "[0.7, 0.7, 0.7] }\n",
+                    above =
+                        "load = { kind = \"random\", low = [0.6, 0.6, 7], high = [9, 9, 9], minimum_distance = 1.4 }",
+                    charges = "[mesh]\nlaw = \"coulomb\"\nk = 1\nbackground = true\naccuracy = 1e-3\n";
+  std::string shown = space("[0, 0, 0]", "[10, 10, 10]", "periodic", "cutoff = 2.5\nshifted = false\n");
+  return {
+      {"pairs in 3D",
+       shown + ensemble("a", "Newton", "temperature = 1\n" + cube) + argon +
+           "tail = true\n[[dissipation]]\nkind = \"nose-hoover\"\non = \"a\"\ntemperature = 1\nrate = 5\n",
+       comes("a", "number = 3, temperature = 1, " + above)},
+      {"pairs in 1D",
+       space("[0]", "[60]", "reflecting") +
+           ensemble("a", "Newton",
+                    "integrator = \"rk4\"\nload = { kind = \"fill\", lattice = \"square\", spacing = 1.3, low = [0.5], "
+                    "high = [40] }\nvelocity = [0.1]\n") +
+           argon,
+       comes("a",
+             "velocity = [-1], number = 3, load = { kind = \"random\", low = [45], high = [58], minimum_distance = "
+             "1.2 }")},
+      {"dissipative",
+       space("[0, 0]", "[12, 12]", "open") +
+           ensemble("a", "Newton",
+                    "temperature = 1\nload = { kind = \"fill\", lattice = \"square\", spacing = 1.2, high = [12, 9] "
+                    "}\n") +
+           argon +
+           "[[dissipation]]\nkind = \"dpd\"\non = \"a\"\nconvention = \"fixed-temperature\"\ntemperature = 1\nfriction "
+           "= 3\nrange = 1.5\n",
+       comes("a",
+             "number = 2, velocity = [0, -5], load = { kind = \"random\", low = [0, 10], high = [12, 12], "
+             "minimum_distance = 1.3 }")},
+      {"ions",
+       space("[0, 0, 0]", "[10, 10, 10]", "periodic") + charges +
+           ensemble("a", "Coulomb", "charge = 1\ntemperature = 1\n" + cube) + argon,
+       comes("a", "number = 2, charge = -1, " + above), 1e-2},
+      {"stars",
+       space("[-2, -2, -2]", "[2, 2, 2]", "open", "") +
+           "[multipole]\nlaw = \"gravity\"\nG = 1\nsoftening = 0.1\ntolerance = 1e-4\n" +
+           ensemble("a", "Kepler", "number = 300\nload = { kind = \"plummer-sphere\", mass = 1, radius = 0.6 }\n"),
+       comes("a", "number = 30, load = { kind = \"plummer-sphere\", mass = 0.1, radius = 0.3, centre = [1.5, 0, 0] }"),
+       1e-3},
+      {"a gas",
+       space("[0, 0]", "[6, 6]", "periodic", "") + "[smooth]\nweight = \"wendland\"\n" +
+           ensemble("a", "Smooth",
+                    "load = { kind = \"fill\", lattice = \"square\", spacing = 0.5 }\nrange = 1.2\ndensity = "
+                    "1\nspecific_energy = 2\nvelocity = [0, 0]\nmaterial = { kind = \"ideal-gas\", gamma = 1.4 }\n"),
+       comes("a", "number = 2, mass = 0.25, load = { kind = \"random\" }")},
+      {"a metal",
+       space("[0, 0, 0]", "[12, 12, 12]", "periodic", "") +
+           "[embedded_atoms]\npotential = \"sutton-chen\"\nn = 9\nm = 6\nepsilon = 1\nc = 39.4\na = 1.5\ncutoff = 3\n" +
+           ensemble("a", "Newton",
+                    "load = { kind = \"block\", lattice = \"fcc\", spacing = 1.06, counts = [4, 4, 4] }\n"),
+       comes("a",
+             "number = 2, velocity = [0, 0, 2], load = { kind = \"random\", low = [0, 0, 0], high = [12, 12, 1.5], "
+             "minimum_distance = 3 }")},
+      {"ions beside molecules",
+       space("[0, 0, 0]", "[10, 10, 10]", "periodic") + charges + "bonded_factors = [0]\n" +
+           ensemble("a", "Coulomb",
+                    "charge = 1\ntemperature = 1\nload = { kind = \"positions\", positions = [[1, 1, 8], [4, 4, 8]] "
+                    "}\n") +
+           ensemble("m", "Coulomb", "charge = [1, -1]\nmolecule = 2\nbonds = [[0, 1]]\n" + cube) + argon +
+           "[[influences]]\nlaw = \"lennard-jones\"\nbetween = [\"a\", \"m\"]\ndepth = 1\nr0 = "
+           "1.12\n[[influences]]\nlaw = \"lennard-jones\"\non = \"m\"\ndepth = 1\nr0 = 1.12\nbonded_factors = "
+           "[0]\n[[influences]]\nlaw = \"spring\"\non = \"m\"\nconnect = \"bonds\"\nstiffness = 20\nrest_length = "
+           "1.3\n",
+       comes("a",
+             "number = 2, charge = -1, load = { kind = \"random\", low = [5, 5, 7], high = [9, 9, 9], "
+             "minimum_distance = 1.4 }"),
+       1e-2},
+  };
+}
+
+/// To the bit, with checkpoints before, at and behind their coming, and other numbers of threads.
+TEST(Additions, GoOnAfterAResumeAsIfNotStopped) {
+  for (auto const& one : growing()) {
+    SCOPED_TRACE(one.name);
+    expect_same_after_a_resume(one.text + one.events, 60, {24, 25, 40, 50, 55});
+  }
+  expect_same_after_a_resume(fluid + barostat +
+                                 "[[events]]\nat = 0.1\non = \"b\"\nadd = { velocity = [0, 2], load = { kind = "
+                                 "\"positions\", positions = [[0.03, 0.02]] } }\n",
+                             60, {19, 20, 31});
+}
+
+/// Forces and energies are those of a simulation that begins with all of them.
+TEST(Additions, ActAsIfTheyHadAlwaysBeenThere) {
+  for (auto const& one : growing()) {
+    SCOPED_TRACE(one.name);
+    auto const run = scenario(one.text + one.events), fresh = scenario(one.text);
+    std::size_t const before = run->ensembles[0]->size();
+    run->simulation->run(50);
+    EXPECT_GT(run->ensembles[0]->size(), before + 1);
+    for (std::size_t e = 0; e < run->ensembles.size(); ++e) {
+      auto const& from = *run->ensembles[e];
+      fresh->ensembles[e]->resize(from.size());
+      std::copy_n(from.row(0), from.size() * from.stride(), fresh->ensembles[e]->row(0));
+    }
+    fresh->simulation->laws_changed();
+    fresh->simulation->run(0);
+    run->simulation->run(0);
+    double const potential = fresh->simulation->measure().potential, internal = fresh->simulation->measure().internal;
+    EXPECT_NEAR(run->simulation->measure().potential, potential, one.forces * std::abs(potential));
+    EXPECT_NEAR(run->simulation->measure().internal, internal, one.forces * std::abs(internal));
+    run->simulation->run(1);
+    fresh->simulation->run(1);
+    for (std::size_t e = 0; e < run->ensembles.size(); ++e) {
+      auto const a = run->ensembles[e]->influences(), b = fresh->ensembles[e]->influences();
+      ASSERT_EQ(a.size(), b.size());
+      double largest = 0;
+      for (double const x : b) largest = std::max(largest, std::abs(x));
+      EXPECT_GT(largest, 0);
+      for (std::size_t k = 0; k < a.size(); ++k) EXPECT_NEAR(a[k], b[k], one.forces * largest) << e << " " << k;
+    }
+  }
+}
+
 TEST(Ensembles, MistakesAreToldInOneLine) {
   std::string const bath = "[[dissipation]]\nkind = \"langevin\"\non = \"a\"\ntemperature = 1\nrate = 5\n";
   auto const line_of = [&](std::string const& more) {
@@ -222,7 +441,21 @@ TEST(Ensembles, MistakesAreToldInOneLine) {
       test::mistakes_of(cut + "[barostat]\npressure = 1\ntemperature = 1\nrate = 1\ncompressibility = 1\n");
   ASSERT_EQ(jumps.size(), 1U);
   EXPECT_NE(jumps[0].find("the energy of this law jumps at its cut-off"), std::string::npos) << jumps[0];
-  expect("[[events]]\nat = 1\n", {"nothing happens", "'scale'"});
+  expect("[[events]]\nat = 1\n", {"nothing happens", "'add'", "'scale'"});
+  std::string const there = "load = { kind = \"positions\", positions = [[6.05, 6.07]] }",
+                    added = "[[events]]\nat = 1\non = \"a\"\nadd = { " + there;
+  expect("[[events]]\nat = 1\nadd = { " + there + " }\n", {"has no 'on'"});
+  expect(added + ", name = \"c\" }\n", {"unknown key 'name' in add", "velocity"});
+  expect(added + ", mas = 3 }\n", {"unknown key 'mas' in add", "did you mean 'mass'"});
+  expect(added + " }\nkick = [0, 1]\n", {"add: ", "two events"});
+  expect(added + " }\nwhere = \"x > 1\"\n", {"where: it belongs"});
+  expect(added + " }\nevery = 2\n", {"every and times"});
+  expect(added + " }\ntimes = 2\n", {"every and times"});
+  expect("[[events]]\nat = 1\non = \"a\"\nadd = 3\n", {"add: a table"});
+  expect("[[events]]\nat = 1\non = \"a\"\nadd = { velocity = [1, 0] }\n", {"add has no 'load'"});
+  expect("[[events]]\nat = 1\non = \"a\"\nadd = { load = { kind = \"random\" } }\n", {"needs 'number'"});
+  expect(added + ", set = [{ particles = [0], freeze = true }] }\n", {"freeze: particles that are added"});
+  expect("[[diagnoses]]\nkind = \"mean-square-displacement\"\n" + added + " }\n", {"come and go"});
   expect("[[events]]\nat = -1\nscale = 2\n", {"at", "positive"});
   expect("[[events]]\nscale = 2\n", {"has no 'at'"});
   expect(bath + "[[events]]\nat = 1\nset = { \"dissipation.0.temperatur\" = 2 }\n",
@@ -234,6 +467,30 @@ TEST(Ensembles, MistakesAreToldInOneLine) {
   expect("[[events]]\nat = 1\non = \"c\"\nscale = 2\n", {"there is no ensemble 'c'"});
   expect("[[events]]\nat = 1\non = \"a\"\nscale = 2\nwhere = \"x + 1\"\n", {"where: a condition is needed"});
   expect(bath + "[[events]]\nat = 1\non = \"a\"\nset = { \"dissipation.0.temperature\" = 2 }\n", {"on: it belongs"});
+}
+
+TEST(Additions, ThatCantBeEndTheRunInOneLine) {
+  auto const fails = [](std::string const& text) {
+    auto const run = scenario(text);
+    return message([&] { run->simulation->run(30); });
+  };
+  std::string const add = "[[events]]\nat = 0.1\non = \"a\"\nadd = { load = { kind = \"positions\", positions = [[";
+  auto const onto = fails(fluid + add + "1.8, 1.8], [1.81, 1.8]] } }\n");
+  EXPECT_NE(onto.find("step 20: particle "), std::string::npos) << onto;
+  EXPECT_NE(onto.find("when particles are added"), std::string::npos) << onto;
+  auto const run = scenario(fluid);
+  AnyEnsemble& a = *run->ensembles[0];
+  run->simulation->add_particles(0.1, [&] { a.resize(20); });
+  EXPECT_EQ(message([&] { run->simulation->run(30); }),
+            "step 20: an event adds particles and takes none away, but 'a' has had 50 and has 20 now");
+  auto const other = scenario(fluid);
+  AnyEnsemble& more = *other->ensembles[0];
+  other->simulation->happen(
+      0.1, [&] { more.resize(51); }, false);
+  EXPECT_EQ(message([&] { other->simulation->run(30); }),
+            "step 20: an event that adds particles is told by add_particles() (C++), and none takes them away");
+  EXPECT_EQ(message([&] { append(more, Ensemble<Newton<3>>("n", 1)); }),
+            "particles of class Newton in 3D can't be added to 'a', whose class is Newton in 2D");
 }
 
 }  // namespace

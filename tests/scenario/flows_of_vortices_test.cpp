@@ -1,7 +1,6 @@
 // What scenarios say of flows of vortices: relaxation, rings with a core, energies, pictures; and what is wrong with it.
 #include <boltzmann/scenario/scenario.hpp>
 #include <boltzmann/schemes/vortices/vortex_flow.hpp>
-#include <boltzmann/simulation/keeps_numbers.hpp>
 
 #include <gtest/gtest.h>
 
@@ -39,7 +38,7 @@ TEST(FlowsOfVortices, AreReadWithAllThatBelongsToThem) {
                            "2\ncells = 50\nfile = \"q.png\"\n",
                        "test.toml");
     ASSERT_EQ(run->simulation->adaptations().size(), 1U);
-    EXPECT_FALSE(numbers_change(run->simulation->adaptations()));
+    EXPECT_FALSE(run->simulation->numbers_change());
     ASSERT_EQ(run->diagnoses.size(), 1U);
     EXPECT_EQ(run->diagnoses[0]->columns().size(), 4U);
     EXPECT_EQ(run->diagnoses[0]->columns()[0].name, "vortex energy");

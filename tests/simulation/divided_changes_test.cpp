@@ -108,6 +108,12 @@ where = "x < 8"
 at = 0.1
 kick = [0.5, 0]
 where = "y < 4"
+[[events]]
+at = 0.07
+every = 0.05
+times = 2
+on = "atoms"
+add = { velocity = [2, 1], load = { kind = "positions", positions = [[12.63, 12.57], [0.58, 23.4]] } }
 )",
                           "events.toml", "events", ""};
   expect_same_bits(scenario(text), 40, {2, 3, 5});
