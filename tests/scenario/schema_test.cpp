@@ -99,7 +99,8 @@ TEST(Tables, TellOfTheKeysThatAreRead) {
       {"equilibrate", {start + "[equilibrate]\ntemperature = 1\nrate = 1\ntime = 1\n" + wrong + atoms}},
       {"classes", {start + "[[classes]]\nname = \"A\"\nbase = \"Newton\"\n" + wrong + atoms}},
       {"classes.fields",
-       {start + "[[classes]]\nname = \"A\"\nbase = \"Newton\"\n[[classes.fields]]\nname = \"b\"\n" + wrong + atoms}},
+       {start + "[[classes]]\nname = \"A\"\nbase = \"Newton\"\n[[classes.fields]]\nname = \"b\"\nneighbours = 1\n" +
+        wrong + atoms}},
       {"ensembles",
        {start + atoms + wrong, start + ensemble("Meso") + wrong, start + "[smooth]\n" + ensemble("Smooth") + wrong}},
       {"ensembles.set", {start + atoms + "[[ensembles.set]]\nparticles = \"all\"\n" + wrong}},
