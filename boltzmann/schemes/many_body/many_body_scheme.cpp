@@ -126,15 +126,16 @@ AtomTask ManyBodyScheme::task() {
   return task;
 }
 
-/// For all entries of the rows of a part, and what pads them.
+/// For all entries that may be read of the rows of a part, and what pads them.
 void ManyBodyScheme::make_room(std::size_t part, AtomTask const& task) {
   auto const [begin, end] = parts_[part];
+  auto const room_of = [&](std::size_t i) { return (task.length[i] / list_padding + 2) * list_padding; };
   std::size_t room = 0;
-  for (std::size_t i = begin; i < end; ++i) room += task.length[i] + list_padding;
+  for (std::size_t i = begin; i < end; ++i) room += room_of(i);
   auto& near = near_of_part_[part];
   if (near.size() < room) near.resize(room);
   std::uint32_t* next = near.data();
-  for (std::size_t i = begin; i < end; next += task.length[i++] + list_padding) near_[i] = next;
+  for (std::size_t i = begin; i < end; next += room_of(i++)) near_[i] = next;
 }
 
 /// Calls function(part) for all parts.

@@ -14,7 +14,7 @@ namespace detail {
 /// Notes which entries of a row are near.
 class NearEntries {
  public:
-  NearEntries(AtomTask const& task, std::size_t i) : first_(task.near[i]), next_(first_) {}
+  [[gnu::always_inline]] NearEntries(AtomTask const& task, std::size_t i) : first_(task.near[i]), next_(first_) {}
 
   /// Those among so many entries, up to 64, whose bits are set. `entries` are read by eight, as rows are padded.
   [[gnu::always_inline]] void add(std::uint32_t const* entries, int count, std::uint64_t bits) {
