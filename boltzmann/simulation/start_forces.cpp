@@ -101,17 +101,18 @@ StartForces forces_at_start(std::vector<Moved> const& moved, std::vector<AnyEnse
                                              : distance < 0.25 * mean && found.step < 0.1 * std::abs(step_size);
   if (other.of && overlap) {
     found.too_large = fmt::format(
-        "{} and {} are only {} apart {}: their force would move the first by {} in one step, further than {}; {}",
-        worst.particle.name(), other.name(), told(distance), added ? "when particles are added" : "at the start",
-        told(way), further,
+        "{} and {} are only {} {}: their force would move the first by {} in one step, further than {}; {}",
+        worst.particle.name(), other.name(), told(distance),
+        added ? "apart when particles are added" : "apart at the start", told(way), further,
         added ? "add them where nobody is"
               : "let [minimise] push them apart (minimise() in C++), or load them further apart (minimum_distance)");
     return found;
   }
   double const safe = std::min(found.step, collisions_followed * collision_step);
   found.too_large = fmt::format(
-      "the step {} is too long for the forces {}: {} would move by {}, further than {}{}; take a step below {}{}",
-      units.text(std::abs(step_size), dimensions::time, 3), added ? "when particles are added" : "of the start",
+      "the step {} {}: {} would move by {}, further than {}{}; take a step below {}{}",
+      units.text(std::abs(step_size), dimensions::time, 3),
+      added ? "is too long for the forces when particles are added" : "is too long for the forces of the start",
       worst.particle.name(), told(way), further,
       other.of ? fmt::format(" ({} is nearest, {} away)", other.name(), told(distance)) : "",
       units.text(with_two_digits_below(safe), dimensions::time, 3),

@@ -110,10 +110,8 @@ kick = [0.5, 0]
 where = "y < 4"
 [[events]]
 at = 0.07
-every = 0.05
-times = 2
 on = "atoms"
-add = { velocity = [2, 1], load = { kind = "positions", positions = [[12.63, 12.57], [0.58, 23.4]] } }
+add = { velocity = [2, 1], load = { kind = "positions", positions = [[12.03, 12.02], [0.02, 23.98]] } }
 )",
                           "events.toml", "events", ""};
   expect_same_bits(scenario(text), 40, {2, 3, 5});
