@@ -93,25 +93,39 @@ inline double Images::at(int axis, int turns, double x) const {
 template <class Function>
 void Images::each(double const* x, double reach, Function const& function) const {
   if (box_->sheared()) return each_sheared(x, reach, function);
+  // Along each axis from which turns to which images are near enough: most particles have none.
   Turns first{}, last{}, turns{};
-  for (int a = 0; a < box_->dimension(); ++a) {
-    bool const near_low = x[a] <= edges_[a] + reach, near_high = x[a] >= edges_[3 + a] - reach;
-    int const most = near_low || near_high ? this->most(a, reach) : 0;
-    if (box_->periodic(a) || (near_low && mirrors(a, Box::End::low))) first[a] = -most;
-    if (box_->periodic(a) || (near_high && mirrors(a, Box::End::high))) last[a] = most;
-  }
   std::array<double, 3> position{};
-  auto const along = [&](int a, int n) {
+  int const dimension = box_->dimension();
+  bool any = false;
+  for (int a = 0; a < dimension; ++a) {
+    position[a] = x[a];
+    bool const near_low = x[a] <= edges_[a] + reach, near_high = x[a] >= edges_[3 + a] - reach;
+    if (!near_low && !near_high) continue;
+    int const most = this->most(a, reach);
+    auto const is_near = [&](int n) {
+      double const there = at(a, n, x[a]);
+      return there >= edges_[a] - reach && there <= edges_[3 + a] + reach;
+    };
+    if (box_->periodic(a) || (near_low && mirrors(a, Box::End::low)))
+      for (first[a] = -most; first[a] < 0 && !is_near(first[a]);) ++first[a];
+    if (box_->periodic(a) || (near_high && mirrors(a, Box::End::high)))
+      for (last[a] = most; last[a] > 0 && !is_near(last[a]);) --last[a];
+    any = any || first[a] < 0 || last[a] > 0;
+  }
+  if (!any) return function(turns, position);
+  auto const turn = [&](int a, int n) {
     turns[a] = n;
-    if (a < box_->dimension()) position[a] = at(a, n, x[a]);
-    return n == 0 || (position[a] >= edges_[a] - reach && position[a] <= edges_[3 + a] + reach);
+    if (a < dimension) position[a] = at(a, n, x[a]);
   };
   for (int k = first[2]; k <= last[2]; ++k) {
-    if (!along(2, k)) continue;
+    turn(2, k);
     for (int j = first[1]; j <= last[1]; ++j) {
-      if (!along(1, j)) continue;
-      for (int i = first[0]; i <= last[0]; ++i)
-        if (along(0, i)) function(turns, position);
+      turn(1, j);
+      for (int i = first[0]; i <= last[0]; ++i) {
+        turn(0, i);
+        function(turns, position);
+      }
     }
   }
 }

@@ -4,7 +4,6 @@
 // The order of rows is that of cells, and cells run along the first axis fastest. So a rank's share is a run of grid
 // lines (in 1D of cells): here *units*, of which every rank knows how many particles each has. What others need of a
 // unit is then geometry.
-#include <boltzmann/boundaries/interior.hpp>
 #include <boltzmann/neighbours/neighbourhood.hpp>
 
 #include <algorithm>
@@ -222,7 +221,6 @@ void Neighbourhood::agree_on_extents(std::vector<Sorting>& all, double reach) {
     one.references = one.copy->references_of(one.own);
     one.dimension = box_->dimension();
     Images const images(*box_);
-    Interior const interior(*box_, box_->edges(), reach);
     auto const take = [&](Bounds& extent, double const* x) {
       for (int a = 0; a < one.dimension; ++a)
         extent.low[a] = std::min(extent.low[a], x[a]), extent.high[a] = std::max(extent.high[a], x[a]);
@@ -230,7 +228,6 @@ void Neighbourhood::agree_on_extents(std::vector<Sorting>& all, double reach) {
     for (std::size_t n = 0; n < one.own.size(); ++n) {
       double const* const x = one.references.data() + n * static_cast<std::size_t>(one.dimension);
       take(one.extents.rows, x);
-      if (interior.holds(x)) continue;
       images.each(x, reach, [&](Turns const& turns, auto const& at) {
         if (turns == Turns{}) return;
         take(one.extents.images, at.data());

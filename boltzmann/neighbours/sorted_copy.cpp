@@ -1,7 +1,6 @@
 // Sorting, images, and following the particles between two builds.
 #include <boltzmann/neighbours/sorted_copy.hpp>
 
-#include <boltzmann/boundaries/interior.hpp>
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/threads.hpp>
 #include <boltzmann/neighbours/neighbour_kernels.hpp>
@@ -332,14 +331,11 @@ void SortedCopy::add_ghosts(Part const* part, int threads) {
     std::vector<std::uint32_t> source, turns;
   };
   std::vector<Found> parts((known() + refresh_grain - 1) / refresh_grain);
-  Interior const interior(*box_, built_edges_, reach_);
   for_ranges(known(), refresh_grain, threads, [&](std::size_t begin, std::size_t end) {
     Found& found = parts[begin / refresh_grain];  // of one thread: whole ranges, or all of them in the first
     for (std::size_t n = begin; n < end; ++n) {
       std::uint32_t const k = known(n);
-      double const* const reference = references_.data() + 4 * std::size_t{k};
-      if (interior.holds(reference)) continue;
-      images_.each(reference, reach_, [&](Turns const& turns, auto const& at) {
+      images_.each(references_.data() + 4 * std::size_t{k}, reach_, [&](Turns const& turns, auto const& at) {
         if (turns == Turns{} || (part && !part->near(at.data()))) return;
         found.source.push_back(k);
         found.turns.push_back(code_of(turns));
