@@ -103,6 +103,8 @@ class Box {
 
   /// Whether there is a wall at this end: at both ends of a mirror or reflecting axis, unless one was opened.
   bool walled(int axis, End end) const { return walled_[axis][static_cast<int>(end)]; }
+  using Walled = std::array<std::array<bool, 2>, 3>;  ///< at the low and at the high end of each axis
+  Walled const& walled() const { return walled_; }
   /// Whether some wall has images behind it (that of a mirror axis).
   bool any_wall() const { return any_wall_; }
   /// The wall at this end. Error if there is none.
@@ -228,8 +230,8 @@ class Box {
   double time_ = 0;  // for which walls, or images, were moved last
   Shear shear_;
   double slide_ = 0;
-  bool backwards_ = false;                       // time went then
-  std::array<std::array<bool, 2>, 3> walled_{};  // at the low and at the high end
+  bool backwards_ = false;  // time went then
+  Walled walled_{};
   std::array<std::array<Wall, 2>, 3> walls_{};
   std::vector<Region> regions_;
   std::uint64_t revision_ = new_revision();

@@ -245,10 +245,10 @@ void Neighbourhood::refresh(int threads) {
   follow(threads);
 }
 
-/// Nothing is known of ensembles with other numbers of particles.
+/// Nothing is known of ensembles with other numbers of particles, and of images beyond other walls.
 void Neighbourhood::find_resized() {
   for (auto& copy : copies_)
-    if (copy.owned() != copy.ensemble().size()) stale_ = true;
+    if (!copy.built_for_these()) stale_ = true;
 }
 
 /// `others`: rows that others advance come from the ensembles here, too.

@@ -190,6 +190,7 @@ void SortedCopy::begin_build(double reach, Box::Edges const& edges, double slide
   check_reach(reach, edges);
   reach_ = reach;
   built_edges_ = edges;
+  built_walls_ = box_->walled();
   built_slide_ = slide;
   images_ = Images(*box_, edges, slide - box_->whole_slide(slide));
   ups_.assign(box_->sheared() ? ensemble_->size() : 0, 0.0);

@@ -165,6 +165,8 @@ class SortedCopy {
   std::vector<double> built_references() const;
   /// And where the box's edges were.
   Box::Edges const& built_edges() const { return built_edges_; }
+  /// Whether there were as many particles at the build, and walls at the same ends.
+  bool built_for_these() const { return owned() == ensemble_->size() && built_walls_ == box_->walled(); }
   double built_slide() const { return built_slide_; }
   /// The axis of a sheared box's flow; -1: no shear.
   int flow_axis() const { return box_->sheared() ? box_->shear().flow : -1; }
@@ -227,8 +229,9 @@ class SortedCopy {
   Images images_;                            // of references, about the edges at the build
   int max_images_ = 0;
   std::size_t extra_blocks_;
-  std::vector<ImageComponent> components_;        // of each number of a row
-  Box::Edges built_edges_{}, edges_{};            // at the build, at the last refresh
+  std::vector<ImageComponent> components_;  // of each number of a row
+  Box::Edges built_edges_{}, edges_{};      // at the build, at the last refresh
+  Box::Walled built_walls_{};
   double built_slide_ = 0, slide_ = 0;            // likewise
   std::vector<double> ups_;                       // of owned rows in a sheared box: lengths above their particles
   std::size_t mapped_blocks_ = 0;                 // in which images differ from their particles

@@ -104,6 +104,28 @@ TEST(SmoothMisuse, WallsAreFurtherApartThanRangesReach) {
   EXPECT_TRUE(contains(line, "the walls of axis x are 1 apart") && contains(line, "range 0.95")) << line;
 }
 
+// A wall that is taken away, or comes back, between two calculations.
+TEST(SmoothMisuse, WallsMayComeAndGo) {
+  auto const influences = [](std::vector<bool> const& open) {
+    Ensemble<Smooth<2>> gas("gas", 0);
+    fill(gas, 8, 0.3);
+    SmoothScheme scheme(square_box(Boundary::mirror));
+    scheme.material(gas, IdealGas{1.4});
+    for (bool const opened : open) {
+      if (opened)
+        scheme.box().open_end(0, Box::End::high);
+      else
+        scheme.box().wall(0, Box::End::high, {});
+      scheme.calculate();
+    }
+    auto const found = gas.influences();
+    return std::vector<double>(found.begin(), found.end());
+  };
+  EXPECT_NE(influences({true}), influences({false}));
+  EXPECT_EQ(influences({false, true}), influences({true}));
+  EXPECT_EQ(influences({true, false}), influences({false}));
+}
+
 // A piston that comes too near is no mistake of the input: the failure names the step.
 TEST(SmoothMisuse, APistonThatComesTooNearFails) {
   Ensemble<Smooth<2>> gas("gas", 0);
