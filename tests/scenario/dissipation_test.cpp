@@ -188,7 +188,9 @@ TEST(Dissipation, TheSameBitsForAnyNumberOfThreadsAndAfterARestart) {
 
 TEST(Dissipation, ActsOnTheThreadsThatTheRunIsGiven) {
   std::string const bath = "[[dissipation]]\nkind = \"langevin\"\non = \"gas\"\nrate = 1\ntemperature = 1\n";
-  auto const run = scenario(text(square, meso, dpd("convention = \"constant-friction\"") + bath), {.threads = 3});
+  Overrides overrides;
+  overrides.threads = 3;
+  auto const run = scenario(text(square, meso, dpd("convention = \"constant-friction\"") + bath), overrides);
   ASSERT_EQ(run->simulation->dissipations().size(), 2u);
   for (auto const* dissipation : run->simulation->dissipations()) EXPECT_EQ(dissipation->threads(), 3);
 }
