@@ -140,7 +140,8 @@ class EnsembleReader {
     ensemble_.state = read_state_law(section_, *kind_, reading_);
     internal_temperature_ = read_internal_temperature(section_, *kind_, reading_);
     if (section_.has("position"))
-      mistake(section_.place("position"), "positions are loaded: load = { kind = \"positions\", positions = [...] }");
+      mistake(section_.key_place("position"),
+              "positions are loaded: load = { kind = \"positions\", positions = [...] }");
     refuse_found(section_, *kind_, reading_);
     auto given = given_fields(*kind_, reading_.dimension);
     if (Item const* item = section_.item("internal_energy"); item && item->is(Item::Kind::table))

@@ -96,6 +96,8 @@ class Section {
   /// The place of a key's value, or of the table if the key is missing.
   Place place(std::string_view key) const;
   Place place() const { return table_.place; }
+  /// Of the key itself.
+  Place key_place(std::string_view key) const { return entry(key) ? entry(key)->place : table_.place; }
   void rename(std::string title) { title_ = std::move(title); }
   ReadContext& context() { return context_; }
   void mistake(Place const& place, std::string message) { context_.mistakes.add(place, std::move(message)); }

@@ -173,7 +173,8 @@ TEST(Shear, SimulationsRefuseWhatDoesNotGo) {
     fluid.simulation.happen(
         1, [] {}, false);
     EXPECT_EQ(fluid.line(),
-              "shear: events that change velocities, which are not those relative to the flow, don't go with it");
+              "shear: events that change velocities, or add particles with velocities, which are not those relative to "
+              "the flow, don't go with it");
   }
   {
     Fluid fluid;
