@@ -23,6 +23,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -177,8 +178,10 @@ TEST(DividedRun, StepsSendWhatGeometryAsks) {
     auto& scheme = *static_cast<PairScheme*>(world.parts[1].get());
     std::vector<Team::Counts> counts;
     std::vector<std::size_t> builds;
+    std::vector<std::chrono::steady_clock::time_point> times;
     world.simulation->observe_progress([&](Simulation const&) {
       counts.push_back(team.counts());
+      times.push_back(std::chrono::steady_clock::now());
       builds.push_back(scheme.neighbourhood().builds());
     });
     world.simulation->run(12);
@@ -187,17 +190,21 @@ TEST(DividedRun, StepsSendWhatGeometryAsks) {
     double const rows = 2 * planes * 2 * cells * cells, bytes = rows * 64;
     int checked = 0;
     std::uint64_t fewest = 9;
+    bool quick = false;
     for (std::size_t k = 1; k < counts.size(); ++k) {
       if (builds[k] != builds[k - 1]) continue;
       ++checked;
       auto const waits = counts[k].collectives - counts[k - 1].collectives;
       EXPECT_TRUE(waits == 4 || waits == 5) << waits << "; about every tenth of a second ranks ask who stops";
       fewest = std::min(fewest, waits);
+      quick = quick || times[k] - times[k - 1] < std::chrono::milliseconds(40);
       EXPECT_EQ(counts[k].messages - counts[k - 1].messages, 2U);
       EXPECT_NEAR(static_cast<double>(counts[k].bytes - counts[k - 1].bytes) / bytes, 1, 0.03);
     }
     EXPECT_GT(checked, 5);
-    EXPECT_EQ(fewest, 4U);
+    if (quick) {  // where every step takes a tenth of a second, each has asked
+      EXPECT_EQ(fewest, 4U);
+    }
   });
 }
 
