@@ -110,6 +110,13 @@ MeshAmplitudes::MeshAmplitudes(std::vector<double const*> const& rows, Box const
     nodes_[slot] = std::max(fewest_nodes, fast_even_length(4 * static_cast<std::size_t>(most_[slot])));
   }
   amplitudes_.resize(place(most_) + 1);
+  bool const finite = std::all_of(rows.begin(), rows.end(), [&](double const* row) {
+    return std::all_of(row, row + dimension_, [](double x) { return std::isfinite(x); });
+  });
+  if (!finite) {
+    std::fill(amplitudes_.begin(), amplitudes_.end(), Complex(std::nan(""), std::nan("")));
+    return;
+  }
   Counts counts{nodes_, scale_for(rows.size())};
   for (double const shift : {0.0, 0.5}) {
     if (dimension_ == 1) counts.spread_all<1>(rows, box, shift, threads);

@@ -18,7 +18,7 @@ namespace boltzmann {
 class MeshAmplitudes {
  public:
   static constexpr int order = 6;
-  /// `rows` begin with positions.
+  /// `rows` begin with positions. All sums are NaN if one of these is not finite.
   MeshAmplitudes(std::vector<double const*> const& rows, Box const& box, std::array<int, 3> const& most, int threads);
 
   std::complex<double> operator()(std::array<int, 3> const& mode) const;

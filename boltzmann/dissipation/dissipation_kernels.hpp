@@ -39,9 +39,9 @@ struct PairNoise {
 struct DissipationTask {
   double const *target = nullptr, *source = nullptr;  ///< dissipation points
   std::uint32_t const* number = nullptr;              ///< which particle each target row is
-  std::uint32_t const* const* row =
-      nullptr;                            ///< of each target from `listed` on, groups of 8 entries, 4 times a source
-                                          ///< row, each with the 8 numbers of these particles behind it
+  /// Of each target from `listed` on groups of 8 entries, 4 times a source row, each with the 8 numbers of these
+  /// particles behind it.
+  std::uint32_t const* const* row = nullptr;
   std::uint32_t const* length = nullptr;  ///< entries
   std::size_t listed = 0;
   std::size_t begin = 0, end = 0;

@@ -15,12 +15,14 @@ namespace boltzmann {
 /// Rows of an ensemble are taken in chunks of so many: what is written for a chunk belongs to it alone.
 inline constexpr std::size_t dissipation_chunk = 8192;
 
-/// What one thread works on of the rows [low, low + dissipation_chunk) of a chunk: those from `begin` to before `end`.
-/// Their sums have the bits that they have where all rows of the chunk are worked on together.
+/// Rows of one chunk, from `begin` to before `end`, on which one thread works. Their sums have the bits that they have
+/// where all rows of the chunk are worked on together.
 struct PairDissipation::Piece {
-  std::size_t low, begin, end;
+  std::size_t begin, end;
 
   std::size_t rows() const { return end - begin; }
+  /// The first row of the chunk.
+  std::size_t low() const { return begin / dissipation_chunk * dissipation_chunk; }
   bool operator==(Piece const&) const = default;
 };
 

@@ -304,8 +304,8 @@ struct Groups {
 /// and images, from both sides.
 void PairDissipation::Coupling::take_piece(std::size_t piece, NeighbourList const& neighbours) {
   SortedCopy const& of = *source->copy;
-  auto const& [first, begin, end] = target->pieces[piece];
-  std::uint32_t const low = item_of_row(first);
+  auto const [begin, end] = target->pieces[piece];
+  std::uint32_t const low = item_of_row(target->pieces[piece].low());
   entries[piece].clear();
   Groups groups{entries[piece], item_of_row(of.sentinel())};
   std::vector<std::size_t> start;
@@ -329,9 +329,10 @@ void PairDissipation::Coupling::take_piece(std::size_t piece, NeighbourList cons
 
 /// Pairs with rows of the same chunk before the piece, as these rows have them: the lists of the piece tell of them.
 void PairDissipation::Coupling::take_border(std::size_t piece, NeighbourList const& neighbours) {
-  auto const& [first, begin, end] = target->pieces[piece];
+  auto const [begin, end] = target->pieces[piece];
+  std::uint32_t const low = item_of_row(target->pieces[piece].low()), high = item_of_row(begin);
   Border& border = borders[piece] = {};
-  if (!same() || first == begin) return;
+  if (!same() || low == high) return;
   struct Pair {
     std::uint32_t row;
     int ring;
@@ -339,7 +340,6 @@ void PairDissipation::Coupling::take_border(std::size_t piece, NeighbourList con
     auto operator<=>(Pair const&) const = default;
   };
   std::vector<Pair> pairs;
-  std::uint32_t const low = item_of_row(first), high = item_of_row(begin);
   for (std::size_t k = begin; k < end; ++k) {
     std::uint32_t const* j = neighbours.rows()[k];
     std::uint32_t read = 0;
@@ -390,9 +390,9 @@ std::vector<PairDissipation::Piece> PairDissipation::pieces(Member const& m) con
   for (auto const& [first, last] : own)
     for (std::size_t begin = first; begin < last; begin = pieces.back().end) {
       while (part_end(part) <= done) ++part;
-      std::size_t const low = begin / dissipation_chunk * dissipation_chunk;
-      std::size_t const end = std::min({last, low + dissipation_chunk, begin + (part_end(part) - done)});
-      pieces.push_back({low, begin, end});
+      std::size_t const chunk_end = (begin / dissipation_chunk + 1) * dissipation_chunk;
+      std::size_t const end = std::min({last, chunk_end, begin + (part_end(part) - done)});
+      pieces.push_back({begin, end});
       done += end - begin;
     }
   return pieces;
@@ -586,10 +586,17 @@ std::size_t PairDissipation::bytes() const {
   std::size_t bytes = splitting_->bytes();
   for (auto const& member : members_)
     bytes += (member->points.capacity() + member->predicted.capacity() + member->energies.capacity()) * sizeof(double);
+  auto const add = [&](auto const& row, auto const& lengths) {
+    bytes += row.capacity() * sizeof(std::uint32_t*);
+    for (auto const& length : lengths) bytes += length.capacity() * sizeof(std::uint32_t);
+  };
   for (auto const& coupling : couplings_) {
-    bytes += coupling->row.capacity() * sizeof(std::uint32_t*);
-    for (auto const& length : coupling->length) bytes += length.capacity() * sizeof(std::uint32_t);
+    add(coupling->row, coupling->length);
     for (auto const& entries : coupling->entries) bytes += entries.capacity() * sizeof(std::uint32_t);
+    for (auto const& border : coupling->borders) {
+      add(border.row, border.length);
+      bytes += border.entries.capacity() * sizeof(std::uint32_t);
+    }
   }
   return bytes;
 }

@@ -7,6 +7,7 @@
 #include <boltzmann/particles/newton.hpp>
 
 #include <gtest/gtest.h>
+#include <tests/diagnoses/look.hpp>
 #include <tests/message.hpp>
 #include <tests/seed.hpp>
 
@@ -23,14 +24,7 @@ namespace {
 
 using Mode = std::array<int, 3>;
 
-std::vector<double> look(Diagnosis& diagnosis, std::vector<AnyEnsemble*> const& ensembles, Box const& box,
-                         int threads = 1) {
-  Sample sample{ensembles, box, nullptr, 1, 0, 0};
-  sample.threads = threads;
-  std::vector<double> values;
-  diagnosis.measure(sample, values);
-  return values;
-}
+using test::look;
 
 template <int D>
 Box box_of() {
@@ -122,6 +116,14 @@ TEST(MeshAmplitudes, HaveTheSameBitsForAnyThreadsAndOrder) {
 }
 
 // Of all particles, an ensemble, a group, and between two: S = |rho|^2 / N, and rho is wrong by N times the bound at most.
+TEST(MeshAmplitudes, AreNoNumbersWhereAParticleIsNowhere) {
+  Box const box = box_of<2>();
+  Ensemble<Newton<2>> gas("gas", 3);
+  gas[1].position = {0.5, std::nan("")};
+  MeshAmplitudes const mesh({gas.row(0), gas.row(1), gas.row(2)}, box, {2, 2, 0}, 1);
+  for (Mode const& mode : {Mode{0, 0, 0}, Mode{1, -2, 0}, Mode{0, 2, 0}}) EXPECT_TRUE(std::isnan(mesh(mode).real()));
+}
+
 TEST(StructureFactorByMesh, IsThatOfDirectSums) {
   Box const box = box_of<3>();
   std::mt19937_64 random(test_seed(36));

@@ -7,6 +7,7 @@
 #include <boltzmann/particles/newton.hpp>
 
 #include <gtest/gtest.h>
+#include <tests/diagnoses/look.hpp>
 #include <tests/message.hpp>
 #include <tests/seed.hpp>
 
@@ -21,14 +22,7 @@ namespace {
 
 using Names = std::vector<std::string>;
 
-std::vector<double> look(Diagnosis& diagnosis, std::vector<AnyEnsemble*> const& ensembles, Box const& box,
-                         int threads = 1) {
-  Sample sample{ensembles, box, nullptr, 1, 0, 0};
-  sample.threads = threads;
-  std::vector<double> values;
-  diagnosis.measure(sample, values);
-  return values;
-}
+using test::look;
 
 template <int D>
 void place_anywhere(Ensemble<Newton<D>>& particles, Box const& box, std::mt19937_64& random) {
