@@ -238,7 +238,7 @@ TEST(Simultaneous, AStateLawByTable) {
 /// Two ensembles of different classes, state laws and frictions.
 template <int D>
 void two_ensembles(bool corrector, bool internal_a, bool internal_b, double conduction) {
-  Box const box = cube<D>(5);
+  Box const box = cube<D>(D == 1 ? 30 : 5);  // a line of 5 has pairs of everybody with everybody: too stiff for the step
   Ensemble<Meso<D>> a("a");
   Ensemble<Grain<D>> b("b");
   scatter(a, box, 70, Masses::unequal, 16, 1);
