@@ -2,7 +2,10 @@
 #include <boltzmann/scenario/read_options.hpp>
 #include <boltzmann/scenario/reading.hpp>
 #include <boltzmann/schemes/cylinder/cylinder_flow.hpp>
+#include <boltzmann/schemes/flow_classes.hpp>
 #include <boltzmann/schemes/panels/panel_scheme.hpp>
+
+#include <fmt/format.h>
 
 #include <memory>
 
@@ -49,9 +52,8 @@ void add_to_cylinder(Item const& table, Reading& reading) {
     catch_errors(reading, ensemble.place, [&] { scheme->add(*ensemble.particles, kind); });
   }
   if (!anybody && !reading.ensembles.empty())
-    reading.mistake(
-        table.place,
-        "[cylinder_flow]: no ensemble is carried by a flow; classes Tracer, Vortex, Inviscid and Viscous are");
+    reading.mistake(table.place, fmt::format("[cylinder_flow]: no ensemble is carried by a flow; classes {} are",
+                                             classes_carried_by_flows));
 }
 
 }  // namespace boltzmann

@@ -2,6 +2,7 @@
 #include <boltzmann/laws/laplace.hpp>
 #include <boltzmann/scenario/laws.hpp>
 #include <boltzmann/scenario/reading.hpp>
+#include <boltzmann/schemes/flow_classes.hpp>
 
 #include <fmt/format.h>
 
@@ -67,14 +68,14 @@ class Fitting {
     if (vortices_ && test)
       return kind.carried && kind.vorticity < 0 ? "" : "which feels no flow without making one; class Tracer does";
     if (vortices_)
-      return kind.vorticity >= 0 ? "" : "which has no vorticity; classes that do: Vortex, Inviscid, Viscous, Diffusive";
+      return kind.vorticity >= 0 ? "" : fmt::format("which has no vorticity; classes {} have", classes_with_vorticity);
     if (fits(kind)) return "";
     if (!kind.strengths) return fmt::format("which makes no field; the class that does: {}", name());
     return fmt::format("which the law '{}' does not act on; write law = \"{}\", or choose class {}",
                        sign_ > 0 ? "coulomb" : "gravity", sign_ > 0 ? "gravity" : "coulomb", name());
   }
   std::string nobody() const {
-    if (vortices_) return "no ensemble makes a flow; classes Vortex, Inviscid, Viscous and Diffusive do";
+    if (vortices_) return fmt::format("no ensemble makes a flow; classes {} do", classes_with_vorticity);
     return fmt::format("no ensemble makes a field; class {} does{}", name(),
                        sign_ > 0 ? "" : ", and with 'on' any other that has a mass");
   }

@@ -1,5 +1,7 @@
 // Flows in scenarios: streams, walls, a cylinder, dye, single precision; the same as a program's, and what is refused.
+#include <boltzmann/scenario/classes.hpp>
 #include <boltzmann/schemes/cylinder/cylinder_flow.hpp>
+#include <boltzmann/schemes/flow_classes.hpp>
 #include <boltzmann/schemes/pair/single_precision.hpp>
 #include <boltzmann/simulation/dye.hpp>
 #include <boltzmann/simulation/simulation.hpp>
@@ -251,6 +253,20 @@ TEST(FlowScenario, RefusesWhatCantBe) {
   swinging->simulation->run(20);
   EXPECT_NEAR(ensemble(*swinging, "v").row(0)[0], (1 - std::cos(2.0)) / 2,
               4e-8);  // Simpson's rule errs by less than (2 dt)^4 / 2880
+}
+
+// What messages offer are the classes that there are.
+TEST(FlowClasses, ThatMessagesNameAreAll) {
+  std::string vorticity, carried;
+  auto const add = [](std::string& list, std::string const& name) { list += (list.empty() ? "" : ", ") + name; };
+  for (auto const& one : particle_classes()) {
+    SourceKind const kind = one.variants.front().source;
+    if (kind.carried) add(carried, one.name);
+    if (kind.vorticity >= 0) add(vorticity, one.name);
+  }
+  for (auto* list : {&vorticity, &carried}) list->replace(list->rfind(","), 1, " and");
+  EXPECT_EQ(vorticity, classes_with_vorticity);
+  EXPECT_EQ(carried, classes_carried_by_flows);
 }
 
 }  // namespace

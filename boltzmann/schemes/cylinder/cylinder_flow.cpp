@@ -5,6 +5,7 @@
 #include <boltzmann/core/threads.hpp>
 #include <boltzmann/schemes/cylinder/cylinder_flow.hpp>
 #include <boltzmann/schemes/cylinder/image_kernel.hpp>
+#include <boltzmann/schemes/flow_classes.hpp>
 
 #include <fmt/format.h>
 
@@ -61,8 +62,8 @@ bool CylinderFlow::outside(double const* position) const {
 
 void CylinderFlow::add(AnyEnsemble& ensemble, SourceKind const& kind) {
   if (!kind.carried)
-    throw Error("cylinder: class " + ensemble.class_name() + " of '" + ensemble.name() +
-                "' is not carried by a flow; Tracer, Vortex, Inviscid and Viscous are");
+    throw Error(fmt::format("cylinder: class {} of '{}' is not carried by a flow; {} are", ensemble.class_name(),
+                            ensemble.name(), classes_carried_by_flows));
   for (std::size_t i = 0; kind.vorticity >= 0 && i < ensemble.size(); ++i)
     if (!outside(ensemble.row(i)))
       throw Error(fmt::format("cylinder: vortex {} of '{}' is inside; its image would be outside", i, ensemble.name()));

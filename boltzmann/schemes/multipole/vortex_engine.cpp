@@ -1,6 +1,9 @@
 // Vortices: their vorticity and cores, the velocity of the flow, and what it does to vorticity.
 #include <boltzmann/core/exact_sum.hpp>
+#include <boltzmann/schemes/flow_classes.hpp>
 #include <boltzmann/schemes/multipole/multipole_engine.hpp>
+
+#include <fmt/format.h>
 
 namespace boltzmann {
 namespace {
@@ -17,8 +20,8 @@ class VortexEngine final : public EngineOf<Kind> {
 
   void check(AnyEnsemble const& ensemble, SourceKind const& kind, bool acts) const override {
     if (!kind.carried)
-      throw Error("multipoles: class " + ensemble.class_name() + " of '" + ensemble.name() +
-                  "' is not carried by a flow; vortices act on Tracer, Vortex, Inviscid, Viscous and Diffusive");
+      throw Error(fmt::format("multipoles: class {} of '{}' is not carried by a flow; vortices act on {}",
+                              ensemble.class_name(), ensemble.name(), classes_carried_by_flows));
     if (acts && kind.vorticity < 0)
       throw Error("multipoles: class " + ensemble.class_name() + " of '" + ensemble.name() +
                   "' has no vorticity: add it as test particles");
