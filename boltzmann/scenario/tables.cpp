@@ -320,8 +320,8 @@ OptionTable make_influence_options() {  // long: a table, a row for each key
                "energies are right at multiples of it",
                "in each step");
   all.add_said("precision", "`\"full\"` or `\"single\"`",
-               "in which the law is summed over all pairs; single is right to some 1e-6 and twice as fast, and for "
-               "`biot-savart` and `biot-savart-algebraic`",
+               "of `biot-savart` and `biot-savart-algebraic`, summed over all pairs: single is right to some 1e-6 and "
+               "twice as fast",
                "`\"full\"`");
   all.add_said("connect", "`[[first, last, interval]]` or `\"bonds\"`",
                "with `on`: only between fixed pairs, (first, first + interval), (first + interval, first + 2 "

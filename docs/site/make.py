@@ -19,7 +19,7 @@ import boltzmann
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 PAGES = {
-    "README.md": "index.md", "docs/architecture.md": "architecture.md", "CONTRIBUTING.md": "contributing.md",
+    "README.md": "index.md", "docs/architecture.md": "architecture.md", "docs/where-to-add.md": "where-to-add.md", "CONTRIBUTING.md": "contributing.md",
     "CHANGELOG.md": "changelog.md",
 }  # fmt: skip
 # Scenarios whose page plays them, and what makes the run short enough for that.

@@ -79,6 +79,28 @@ TEST_P(GuideCommands, Run) {
   EXPECT_EQ(run.status, 0) << run.err;
 }
 
+// The mistakes that the page of scenarios shows are those that its first scenario gets with two words changed.
+TEST(Guide, MistakesAreToldAsThePageHasThem) {
+  auto const all = blocks("```toml scenario");
+  auto const first = std::find_if(all.begin(), all.end(), [](Block const& one) { return one.name == "scenarios_1"; });
+  ASSERT_NE(first, all.end());
+  std::string text = first->text;
+  auto const change = [&](std::string const& word, std::string const& mistake) {
+    auto const at = text.find(word);
+    ASSERT_NE(at, std::string::npos) << word;
+    text.replace(at, word.size(), mistake);
+  };
+  change("step = 0.005", "stpe = 0.005");
+  change("mass = 1", "mass = \"3.4 angstrom\"");
+  test::Folder const folder;
+  test::write_text(folder / "argon.toml", text);
+  std::string told;
+  std::ifstream page(std::string(BOLTZMANN_SOURCE) + "/docs/guide/scenarios.md");
+  for (std::string line; std::getline(page, line);)
+    if (line.starts_with("    argon.toml:")) told += line.substr(4) + "\n";
+  EXPECT_EQ(test::bzm({"check", "argon.toml"}, folder.string()).err, told);
+}
+
 TEST(Guide, HasProgramsAndScenarios) {
   EXPECT_GE(blocks("```cpp program").size(), 3u);
   EXPECT_GE(blocks("```toml scenario").size(), 1u);
