@@ -65,6 +65,11 @@ std::vector<GatheredTable> Average::tables() const {
 std::vector<std::string> Average::report(UnitSystem const& units) const {
   std::vector<std::string> lines;
   for (auto const& one : averaged_) {
+    if (one.sums.count() == 0) {
+      lines.push_back(
+          fmt::format("{}: no row has a number since {}", one.column.name, units.text(since_, dimensions::time)));
+      continue;
+    }
     auto const [unit, factor] = units.display(one.column.dimension);
     MeanError mean = one.sums.mean();
     mean.mean *= factor;

@@ -71,6 +71,7 @@ TEST(Average, IsOfColumnsBefore) {
   EXPECT_EQ(average.columns().size(), 3U);
   EXPECT_EQ(average.columns()[2].name, "pressure relative error");
   EXPECT_EQ(average.columns()[1].dimension, dimensions::pressure);
+  EXPECT_EQ(average.report(UnitSystem::reduced())[0], "pressure: no row has a number since 2");
   Ensemble<Newton<1>> atoms("atoms");
   std::vector<AnyEnsemble*> const all{&atoms};
   Box const box(Vector{0.0}, Vector{1.0});
