@@ -339,7 +339,7 @@ TEST(Guide, NamesEverythingThatAScenarioCanSay) {
 TEST(Guide, ItsExampleRuns) {
   std::ifstream in(BOLTZMANN_SOURCE "/docs/guide/scenarios.md");
   std::string const guide((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
-  auto const begin = guide.find("```toml\n") + 8;
+  auto const begin = guide.find('\n', guide.find("```toml")) + 1;
   auto const scenario = parse_scenario(guide.substr(begin, guide.find("```", begin) - begin), "guide.toml");
   double const start = energy(*scenario);
   scenario->simulation->run(200);
