@@ -49,6 +49,9 @@ struct Writer {
   std::string operator()(double const* number) const { return std::isnan(*number) ? "" : in_toml(*number); }
   std::string operator()(std::int64_t const* number) const { return fmt::format("{}", *number); }
   std::string operator()(std::optional<double> const* number) const { return *number ? in_toml(**number) : ""; }
+  std::string operator()(std::span<double> vector) const {
+    return in_toml(std::vector<double>(vector.begin(), vector.end()));
+  }
   std::string operator()(OptionGroup const&) const { return ""; }
   std::string operator()(std::monostate) const { return ""; }
   std::string operator()(std::string const* text) const { return text->empty() ? "" : in_toml(*text); }
@@ -184,6 +187,8 @@ std::string allowed(Option const& option) {
       return range(quantity);
     case wholes:
       return "a whole number, or a list of them";
+    case wholes_by_axis:
+      return "a whole number, or a list with one for each axis";
     case numbers:
       return "a list, each " + range(quantity);
     case count_or_numbers:
@@ -197,6 +202,8 @@ std::string allowed(Option const& option) {
       return kind.words.front();
     case text:
       return "a text";
+    case path:
+      return "the path of a file";
     case name:
       return "a name";
     case word: {

@@ -13,6 +13,7 @@
 #include <functional>
 #include <numbers>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -57,12 +58,14 @@ struct OptionGroup {
 };
 
 /// The member of an object that an option is about. A number that is NaN, and an optional without value, are automatic.
+/// A span has one component for each axis, and may be too short for a space in which the object means nothing.
 /// std::monostate: it is no plain member; whoever reads the table reads it by code of its own.
 using OptionPlace =
     std::variant<bool*, int*, std::optional<int>*, std::int64_t*, std::size_t*, double*, std::optional<double>*,
-                 std::string*, std::vector<int>*, std::vector<std::uint32_t>*, std::vector<double>*,
-                 std::vector<std::string>*, std::optional<std::array<double, 3>>*, std::vector<std::array<double, 2>>*,
-                 NamedValue, OptionList, OptionGroup, CountOrList, std::monostate>;
+                 std::string*, std::vector<int>*, std::vector<std::uint32_t>*, std::vector<std::size_t>*,
+                 std::vector<double>*, std::vector<std::string>*, std::span<double>,
+                 std::optional<std::array<double, 3>>*, std::vector<std::array<double, 2>>*, NamedValue, OptionList,
+                 OptionGroup, CountOrList, std::monostate>;
 
 /// What may be written for an option.
 struct OptionKind {
@@ -70,11 +73,13 @@ struct OptionKind {
     flag,
     whole,             ///< a whole number in `range`
     wholes,            ///< one, or a list of them
+    wholes_by_axis,    ///< one for all axes, or a list with one for each
     number,            ///< a quantity of `dimension` in `range`
     numbers,           ///< a list of them
     count_or_numbers,  ///< how many, in `range`, or a list of them
     vector,            ///< as many of them as space has axes
     text,
+    path,       ///< a text that names a file, from the scenario's folder
     name,       ///< a text that names a quantity of particles, a column, ...
     word,       ///< one of `words`
     axis,       ///< x, y or z, as far as space has them
@@ -109,6 +114,8 @@ namespace option {
 inline OptionKind flag() { return {OptionKind::Form::flag}; }
 /// Any text: "gas at rest".
 inline OptionKind text() { return {OptionKind::Form::text}; }
+/// The path of a file, from the scenario's folder.
+inline OptionKind path() { return {OptionKind::Form::path}; }
 /// "velocity.x": what particles have, a column, a field; whoever uses it knows which.
 inline OptionKind name_of_quantity() { return {OptionKind::Form::name}; }
 /// "x", "y" or "z", as far as the space has them.
@@ -134,6 +141,10 @@ inline OptionKind number_by_space(Dimension dimension, int by_space, NumberRange
 /// A whole number between these, or a list of them.
 inline OptionKind wholes(double low, double high) {
   return {OptionKind::Form::wholes, dimensions::none, {low, high, false}};
+}
+/// A whole number between these for all axes, or a list with one for each.
+inline OptionKind wholes_by_axis(double low, double high) {
+  return {OptionKind::Form::wholes_by_axis, dimensions::none, {low, high, false}};
 }
 /// As many quantities as the space has axes: ["1 nm", 0, 0].
 inline OptionKind vector(Dimension dimension) { return {OptionKind::Form::vector, dimension}; }
@@ -183,6 +194,39 @@ class OptionTable {
                 std::move(otherwise),
                 {},
                 [member](void* object) -> OptionPlace { return &(static_cast<T*>(object)->*member); }});
+  }
+  /// A member of a member.
+  template <class T, class Inner, class M>
+  OptionTable& add(std::string key, Inner T::*inner, M Inner::*member, OptionKind kind, std::string doc,
+                   std::string otherwise = "") {
+    return add_of<T>(
+        std::move(key), [=](T& of) -> OptionPlace { return &(of.*inner.*member); }, std::move(kind), std::move(doc),
+        std::move(otherwise));
+  }
+  /// A member whose values have names.
+  template <class T, class M>
+  OptionTable& add(std::string key, M T::*member, Words<M> const& words, std::string doc, std::string otherwise = "") {
+    return add_of<T>(
+        std::move(key), [=, &words](T& of) -> OptionPlace { return named_value(&(of.*member), words); },
+        option::word(words.names()), std::move(doc), std::move(otherwise));
+  }
+  template <class T, class Inner, class M>
+  OptionTable& add(std::string key, Inner T::*inner, M Inner::*member, Words<M> const& words, std::string doc,
+                   std::string otherwise = "") {
+    return add_of<T>(
+        std::move(key), [=, &words](T& of) -> OptionPlace { return named_value(&(of.*inner.*member), words); },
+        option::word(words.names()), std::move(doc), std::move(otherwise));
+  }
+  /// A member that is a struct with options of its own where its table is there.
+  template <class T, class Group>
+  OptionTable& add(std::string key, std::optional<Group> T::*member, OptionTable const& options, std::string example,
+                   std::string doc, std::string otherwise) {
+    return add_of<T>(
+        std::move(key),
+        [member, &options](T& of) -> OptionPlace {
+          return OptionGroup{&options, [&group = of.*member]() -> void* { return &group.emplace(Group{}); }};
+        },
+        option::group(std::move(example)), std::move(doc), std::move(otherwise));
   }
   template <class T, std::invocable<T&> Member>
   OptionTable& add_of(std::string key, Member member, OptionKind kind, std::string doc, std::string otherwise = "") {

@@ -33,9 +33,7 @@ OptionTable const& diagnosis_options() {  // long: a table, a row for each key
         "`\"direct\"`: wave by wave, exact; `\"mesh\"`: all at once, each sum to 1e-5 of the particles, for many of "
         "them",
         "`\"direct\"`");
-    all.add_of<P>(
-        "weight", [](P& p) -> OptionPlace { return named_value(&p.weight, weight_words()); },
-        word(weight_words().names()), "of the averages");
+    all.add("weight", &P::weight, weight_words(), "of the averages");
     all.add("range", &P::range, number(dimensions::length, positive), "of the weight", "each particle's own");
     all.add("gamma", &P::gamma, number(dimensions::none, {1, __builtin_inf(), true}), "the ratio of specific heats",
             "1 + 2/D");

@@ -13,37 +13,25 @@ constexpr Dimension conduction = dimensions::energy * dimensions::temperature / 
 OptionTable make_dissipation_options() {
   using D = DissipationOptions;
   OptionTable all;
-  all.add_of<D>(
-      "convention", [](D& d) -> OptionPlace { return named_value(&d.dissipation.convention, convention_words()); },
-      word(convention_words().names()), "which relation friction and noise obey");
-  all.add_of<D>(
-      "friction", [](D& d) -> OptionPlace { return &d.dissipation.friction; },
-      number(dimensions::friction, not_negative),
-      "gamma; 0: none. Or a formula of `r` and, with `\"constant-friction\"`, of `T`, in quotes");
-  all.add_of<D>(
-      "temperature", [](D& d) -> OptionPlace { return &d.dissipation.temperature; },
-      number(dimensions::temperature, positive),
-      "of the heat bath (`\"fixed-temperature\"`), or that of the convention; `\"constant-friction\"` has none",
-      "needed but for `\"constant-friction\"`");
-  all.add_of<D>(
-      "range", [](D& d) -> OptionPlace { return &d.dissipation.range; }, number(dimensions::length, positive),
-      "beyond it nothing acts; at most half of a periodic axis");
-  all.add_of<D>(
-      "exponent", [](D& d) -> OptionPlace { return &d.dissipation.exponent; }, number(dimensions::none, not_negative),
-      "of chi");
+  all.add("convention", &D::dissipation, &DissipationLaw::convention, convention_words(),
+          "which relation friction and noise obey");
+  all.add("friction", &D::dissipation, &DissipationLaw::friction, number(dimensions::friction, not_negative),
+          "gamma; 0: none. Or a formula of `r` and, with `\"constant-friction\"`, of `T`, in quotes");
+  all.add("temperature", &D::dissipation, &DissipationLaw::temperature, number(dimensions::temperature, positive),
+          "of the heat bath (`\"fixed-temperature\"`), or that of the convention; `\"constant-friction\"` has none",
+          "needed but for `\"constant-friction\"`");
+  all.add("range", &D::dissipation, &DissipationLaw::range, number(dimensions::length, positive),
+          "beyond it nothing acts; at most half of a periodic axis");
+  all.add("exponent", &D::dissipation, &DissipationLaw::exponent, number(dimensions::none, not_negative), "of chi");
   all.add_said("weight", "a [formula](#laws-that-are-typed) of `r` and `range`, a number, zero or more",
                "chi, instead of `exponent`: `\"(1 - r/range)^2*(1 + 2*r/range)\"`", "that of `exponent`");
   all.add_said("parameters", "a table of quantities", "which its formulas use: `{ length = \"4 angstrom\" }`", "none");
-  all.add_of<D>(
-      "projected", [](D& d) -> OptionPlace { return &d.dissipation.projected; }, flag(),
-      "along the line of centres, so that angular momentum is conserved, too; else in all directions");
-  all.add_of<D>(
-      "conduction", [](D& d) -> OptionPlace { return &d.dissipation.conduction; }, number(conduction, not_negative),
-      "kappa of the heat that flows between internal energies, kappa chi^2 (1/Ti - 1/Tj)");
-  all.add_of<D>(
-      "method", [](D& d) -> OptionPlace { return named_value(&d.method, dissipation_method_words()); },
-      word(dissipation_method_words().names()),
-      "all pairs act at once, or one after the other (Shardlow), which is right for any friction, and slower");
+  all.add("projected", &D::dissipation, &DissipationLaw::projected, flag(),
+          "along the line of centres, so that angular momentum is conserved, too; else in all directions");
+  all.add("conduction", &D::dissipation, &DissipationLaw::conduction, number(conduction, not_negative),
+          "kappa of the heat that flows between internal energies, kappa chi^2 (1/Ti - 1/Tj)");
+  all.add("method", &D::method, dissipation_method_words(),
+          "all pairs act at once, or one after the other (Shardlow), which is right for any friction, and slower");
   all.add("corrector", &D::corrector, flag(),
           "simultaneous to second order in friction times step; twice the work, three times where there are internal "
           "energies");

@@ -60,9 +60,8 @@ OptionTable make_members() {
       },
       {OptionKind::Form::count_or_numbers, of_what_is_shown, {1, 1000}}, "how many levels, or which, ascending");
   all.add_of<Picture>("weight", weight_of, word(weight_words().names()), "how particles are spread over space");
-  all.add_of<Picture>(
-      "range", [](Picture& p) -> OptionPlace { return &p.smoothing.range; }, number(dimensions::length, positive),
-      "how far they are spread", "each particle's own, or one that fits");
+  all.add("range", &Picture::smoothing, &Smoothing::range, number(dimensions::length, positive),
+          "how far they are spread", "each particle's own, or one that fits");
   all.add("cells", &Picture::cells, whole(1, 100'000), "cells along the longest side of the picture");
   all.add("streamlines", &Picture::streamlines, whole(0, 200), "2D: lines along the flow, so many beside each other",
           "none");
@@ -74,12 +73,8 @@ OptionTable make_members() {
   all.add("bins", &Picture::bins, whole(1, 100'000), "bins");
   all.add_of<Picture>("curve", curves_of, tables(),
                       "`{ frequency = wp, speed = c }` draws omega^2 = wp^2 + c^2 k^2; or a list of them", "none");
-  all.add_of<Picture>(
-      "azimuth", [](Picture& p) -> OptionPlace { return &p.projection.azimuth; }, degrees(),
-      "3D: from where one looks, round z");
-  all.add_of<Picture>(
-      "elevation", [](Picture& p) -> OptionPlace { return &p.projection.elevation; }, degrees(),
-      "3D: and how high above the xy plane");
+  all.add("azimuth", &Picture::projection, &Projection::azimuth, degrees(), "3D: from where one looks, round z");
+  all.add("elevation", &Picture::projection, &Projection::elevation, degrees(), "3D: and how high above the xy plane");
   all.add("most", &Picture::most, whole(0, 1e9), "one of every n particles, so that so many are drawn at most; 0: all");
   all.add("region", &Picture::region, numbers(dimensions::length),
           "only the particles inside: `[[low, high], ...]`, a pair for each axis that is shown", "all");

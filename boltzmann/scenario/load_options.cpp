@@ -17,9 +17,7 @@ constexpr double unlimited = std::numeric_limits<double>::infinity();
 OptionTable make_members() {  // long: a table, a row for each key
   using L = LoadOptions;
   OptionTable all;
-  all.add_of<L>(
-      "lattice", [](L& l) -> OptionPlace { return named_value(&l.lattice, lattice_words()); },
-      word(lattice_words().names()), "`\"square\"`: in 1D a line, in 3D simple cubic");
+  all.add("lattice", &L::lattice, lattice_words(), "`\"square\"`: in 1D a line, in 3D simple cubic");
   all.add("spacing", &L::spacing, number(dimensions::length, positive), "of nearest neighbours",
           "`number_density` says it");
   all.add("number_density", &L::number_density, number_by_space(dimensions::none, -1, positive),
@@ -28,8 +26,8 @@ OptionTable make_members() {  // long: a table, a row for each key
   all.add_said("origin", "a length along each axis, or `\"centred\"`", "of the first site", "centred in the box");
   all.add("jitter", &L::jitter, number(dimensions::none, {0, 1}),
           "moved at random, by at most this part of the spacing along each axis");
-  all.add_said("low", "a length along each axis", "where the lattice begins", "the box");
-  all.add_said("high", "a length along each axis", "where it ends", "the box");
+  all.add("low", &L::low, vector(dimensions::length), "where the lattice begins", "the box");
+  all.add("high", &L::high, vector(dimensions::length), "where it ends", "the box");
   all.add_said("where", "a [formula](#formulas)", "only where it is true: `\"r < 1\"`", "everywhere");
   all.add("minimum_distance", &L::minimum_distance, number(dimensions::length, not_negative), "between any two");
   all.add(
@@ -43,11 +41,12 @@ OptionTable make_members() {  // long: a table, a row for each key
           "or `mode`");
   all.add("phase", &L::phase, number(dimensions::angle), "the density is 1 + amplitude sin(k x + phase)");
   all.add("amplitude", &L::amplitude, number(dimensions::none, {-1, 1}), "of the density");
+  all.add("component", &L::component, axis_word(), "of the velocity", "that along the wave");
   all.add("quiet", &L::quiet, flag(), "at the quantiles, without noise; else at random");
   all.add("temperature", &L::temperature, number(dimensions::temperature, positive), "of the atmosphere");
   all.add("acceleration", &L::acceleration, number(dimensions::acceleration), "downwards, along the last axis");
   all.add_said("positions", "a list of places, `[[0, 0], [1, 0]]`", "one for each particle");
-  all.add_said("path", "a text", "of a file, from the scenario's folder");
+  all.add("path", &L::path, path(), "from the scenario's folder");
   all.add("format", &L::format, word(particle_file_names()), "of the file", "what its ending says");
   all.add("frame", &L::frame, whole(0, unlimited), "of the file, from 0");
   all.add("ensemble", &L::ensemble, text(), "of the stored run", "the one of this name");
@@ -67,11 +66,9 @@ OptionTable make_members() {  // long: a table, a row for each key
           "Newton's constant, by which they move", "that of nature; 1 of pure numbers");
   all.add("centre", &L::centre, vector(dimensions::length), "of the cluster", "0 on each axis");
   all.add("drift", &L::drift, vector(dimensions::velocity), "how the cluster moves", "0 on each axis");
-  all.add_of<L>(
-      "profile", [](L& l) -> OptionPlace { return named_value(&l.profile, disc_profile_words()); },
-      word(disc_profile_words().names()),
-      "`\"exponential\"`: the surface density falls as exp(-R / radius); `\"kuzmin\"`: as (R^2 + radius^2)^(-3/2); "
-      "`\"uniform\"`");
+  all.add("profile", &L::profile, disc_profile_words(),
+          "`\"exponential\"`: the surface density falls as exp(-R / radius); `\"kuzmin\"`: as (R^2 + radius^2)^(-3/2); "
+          "`\"uniform\"`");
   all.add("edge", &L::edge, number(dimensions::length, positive), "where the disc ends",
           "5 radii; of a uniform one its radius");
   all.add("central_mass", &L::central_mass, number(dimensions::mass, not_negative),
@@ -167,8 +164,14 @@ std::vector<LoadKind> make_kinds() {  // long: a table, an entry for each kind
 
 std::vector<LoadKind> const& load_kinds() { return once<make_kinds>(); }
 
-OptionTable const& wave_options() {
-  static OptionTable const all = make_members().only({{"axis"}, {"mode"}, {"wave_number"}, {"phase"}});
+OptionTable const& ripple_options() {
+  static OptionTable const all =
+      make_members().only({{"axis"},
+                           {"mode"},
+                           {"wave_number"},
+                           {"phase", "the velocity is amplitude sin(k x + phase)"},
+                           {"component"},
+                           {"amplitude", "of the velocity", "", "0.1", number(dimensions::velocity)}});
   return all;
 }
 

@@ -13,25 +13,25 @@
 
 namespace boltzmann {
 
-/// What is a plain number or word; counts, places, formulas and files are read by code.
+/// What is a plain number, word or place; counts, lists of places and formulas are read by code.
 struct LoadOptions {
   Lattice lattice = Lattice::square;
   std::optional<double> spacing, number_density;
   double jitter = 0;  ///< a part of the spacing
   double minimum_distance = 0;
   std::optional<double> packing_fraction;
-  std::string axis = "x";
+  std::string axis = "x", component;
   std::int64_t mode = 0;  ///< 0: the wave number is given
   std::optional<double> wave_number;
   double phase = 0, amplitude = 0;
   bool quiet = false;
   double temperature = 1, acceleration = 0;
   std::int64_t frame = 0;
-  std::string species, format, units, style, ensemble;
+  std::string path, species, format, units, style, ensemble;
   std::optional<double> length, velocity;
   double mass = 1, radius = 1;
   std::optional<double> G;
-  std::optional<std::array<double, 3>> centre, drift, normal;
+  std::optional<std::array<double, 3>> low, high, centre, drift, normal;
   DiscProfile profile = DiscProfile::exponential;
   std::optional<double> edge;
   double central_mass = 0;
@@ -46,7 +46,7 @@ struct LoadKind {
   OptionTable options;
 };
 std::vector<LoadKind> const& load_kinds();
-/// axis, mode or wave_number, phase: of a wave along an axis.
-OptionTable const& wave_options();
+/// Of a wave that is added to velocities: their amplitude and component, and the wave.
+OptionTable const& ripple_options();
 
 }  // namespace boltzmann

@@ -17,20 +17,16 @@ namespace {
 template <class Fits>
 std::vector<AnyEnsemble*> read_on(Section& section, std::string_view key, Fits const& fits, Reading& reading) {
   Item const* const on = section.find("on");
-  std::vector<ReadEnsemble*> read;
-  if (on && on->is(Item::Kind::array))
-    for (Item const& word : on->elements) read.push_back(reading.ensemble(word, "on"));
-  else if (on)
-    read.push_back(reading.ensemble(*on, "on"));
-  else
-    for (auto& ensemble : reading.ensembles)
-      if (ensemble.particles && fits(*ensemble.particles)) read.push_back(&ensemble);
+  auto read = named_ensembles(on, "on", reading);
+  for (auto& ensemble : reading.ensembles)
+    if (!on && ensemble.particles && fits(*ensemble.particles)) read.push_back({&ensemble, ensemble.place});
   Place const& place = on ? on->place : section.place();
   if (!on && read.empty() && all_loaded(reading))
     reading.mistake(place, fmt::format("{}: there is no ensemble whose vortices could be meant", key));
   std::vector<AnyEnsemble*> ensembles;
-  for (auto const* ensemble : read) {
-    if (!ensemble || !ensemble->particles) continue;
+  for (auto const& one : read) {
+    ReadEnsemble const* const ensemble = one.ensemble;
+    if (!ensemble->particles) continue;
     if (ensemble->integrator && !ensemble->integrator->same_for_all())
       reading.mistake(place,
                       fmt::format("{}: some particles of '{}' are frozen, by their numbers, which it changes; name "
@@ -110,36 +106,25 @@ void read_one(Item const& table, std::string const& key, OptionTable const& know
     });
 }
 
-/// All tables of a key, [key] or [[key]].
-template <class F>
-void each_table(Section& document, std::string_view key, F const& f) {
-  Item const* const item = document.find(key);
-  if (item && item->is(Item::Kind::table)) return f(*item);
-  for (Item const* table : find_tables(document, key)) f(*table);
-}
-
 }  // namespace
 
 void read_adaptations(Section& document, Reading& reading) {
-  each_table(document, "remesh", [&](Item const& table) {
+  for (Item const* table : find_tables(document, "remesh", true))
     read_one<Remesher, RemeshOptions>(
-        table, "remesh", remesh_options(), [](AnyEnsemble const& of) { return of.find_field("vorticity") != nullptr; },
+        *table, "remesh", remesh_options(), [](AnyEnsemble const& of) { return of.find_field("vorticity") != nullptr; },
         reading);
-  });
-  each_table(document, "split_cores", [&](Item const& table) {
+  for (Item const* table : find_tables(document, "split_cores", true))
     read_one<CoreSplitter, CoreSplittingOptions>(
-        table, "split_cores", core_splitting_options(),
+        *table, "split_cores", core_splitting_options(),
         [](AnyEnsemble const& of) { return of.class_name() == "Spreading"; }, reading);
-  });
-  each_table(document, "outflow", [&](Item const& table) {
+  for (Item const* table : find_tables(document, "outflow", true))
     read_one<Outflow, OutflowOptions>(
-        table, "outflow", outflow_options(),
+        *table, "outflow", outflow_options(),
         [](AnyEnsemble const& of) {
           return of.class_name() != "Panel" && !of.find_field("velocity") && !of.find_field("mass") &&
                  of.influence_size() > 0;
         },
         reading);
-  });
 }
 
 }  // namespace boltzmann

@@ -70,11 +70,7 @@ void read_one_barostat(Item const& table, Reading& reading) {
 }  // namespace
 
 void read_barostats(Section& document, Reading& reading) {
-  Item const* const item = document.find("barostat");
-  if (item && item->is(Item::Kind::table))
-    read_one_barostat(*item, reading);
-  else
-    for (Item const* table : find_tables(document, "barostat")) read_one_barostat(*table, reading);
+  for (Item const* table : find_tables(document, "barostat", true)) read_one_barostat(*table, reading);
   // Moves of the box would feel the jumps, which forces and the virial don't have.
   if (!reading.barostats.empty() && reading.jump)
     reading.mistake(

@@ -25,9 +25,6 @@ void read_body(Item const& table, Reading& reading) {
   if (!shape) return;
   section.rename(fmt::format("[[bodies]] '{}'", body_shape_words().name(*shape)));
   read_options(section, body_options(*shape), &options, {.dimension = reading.dimension});
-  if (*shape == BodyShape::file)
-    if (Item const* const path = section.need("path", "path = \"wing.txt\""))
-      options.path = read_path(*path, "path", reading.context).value_or("");
   section.finish();
   for (auto const& other : reading.ensembles)
     if (other.name == options.name)

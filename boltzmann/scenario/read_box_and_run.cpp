@@ -15,55 +15,23 @@
 namespace boltzmann {
 namespace {
 
-std::vector<std::string> const base_names{"si", "cgs", "reduced", "lennard-jones", "gravitational", "plasma", "custom"};
-
-/// A quantity of a base's own table: it needs a unit, or is taken in SI.
-template <Dimension d>
-std::optional<Quantity<d>> unit(Section& units, std::string_view key, std::string_view example) {
-  auto const value = units.need_quantity(key, d, example);
-  return value ? std::optional(Quantity<d>{*value}) : std::nullopt;
-}
-
-UnitSystem read_base(Section& units, std::string const& name) {
-  using namespace dimensions;
-  if (name == "si") return UnitSystem::si();
-  if (name == "cgs") return UnitSystem::cgs();
-  if (name == "reduced") return UnitSystem::reduced();
-  if (name == "lennard-jones") {
-    auto const sigma = unit<length>(units, "sigma", "sigma = \"3.405 angstrom\"");
-    auto const epsilon = unit<energy>(units, "epsilon", "epsilon = \"0.01032 eV\"");
-    auto const m = unit<mass>(units, "mass", "mass = \"39.948 amu\"");
-    if (sigma && epsilon && m) return UnitSystem::lennard_jones(*sigma, *epsilon, *m);
-  } else if (name == "gravitational") {
-    auto const l = unit<length>(units, "length", "length = \"1 AU\"");
-    auto const m = unit<mass>(units, "mass", "mass = \"1 Msun\"");
-    if (l && m) return UnitSystem::gravitational(*l, *m);
-  } else if (name == "plasma") {
-    auto const n = unit<number_density>(units, "density", "density = \"1e18 1/m^3\"");
-    auto const q = unit<charge>(units, "charge", "charge = \"1.602176634e-19 C\"");
-    auto const m = unit<mass>(units, "mass", "mass = \"9.1093837015e-31 kg\"");
-    auto const t = unit<dimensions::temperature>(units, "temperature", "temperature = \"10000 K\"");
-    if (n && q && m && t) return UnitSystem::electrostatic_plasma(*n, *q, *m, *t);
-  } else if (name == "custom") {
-    auto const l = unit<length>(units, "length", "length = \"1 angstrom\"");
-    auto const m = unit<mass>(units, "mass", "mass = \"1 amu\"");
-    auto const t = unit<time>(units, "time", "time = \"1 ps\"");
-    auto const kelvins = units.quantity("temperature", dimensions::temperature);
-    auto const coulombs = units.quantity("charge", charge);
-    if (l && m && t)
-      return UnitSystem(*l, *m, *t, kelvins ? Quantity<dimensions::temperature>{*kelvins} : units::kelvin,
-                        coulombs ? Quantity<charge>{*coulombs} : units::elementary_charge);
-  }
+/// With all keys that its base needs.
+UnitSystem base_of(UnitsOptions const& of) {
+  if (of.base == "cgs") return UnitSystem::cgs();
+  if (of.base == "reduced") return UnitSystem::reduced();
+  if (of.base == "lennard-jones") return UnitSystem::lennard_jones({*of.sigma}, {*of.epsilon}, {*of.mass});
+  if (of.base == "gravitational") return UnitSystem::gravitational({*of.length}, {*of.mass});
+  if (of.base == "plasma")
+    return UnitSystem::electrostatic_plasma({*of.density}, {*of.charge}, {*of.mass}, {*of.temperature});
+  if (of.base == "custom")
+    return UnitSystem({*of.length}, {*of.mass}, {*of.time}, {of.temperature.value_or(units::kelvin.si)},
+                      {of.charge.value_or(units::elementary_charge.si)});
   return UnitSystem::si();
 }
 
-/// axis, end; open, or velocity, and of mirror axes slips, temperature.
 void read_wall(Item const& table, Reading& reading) {
   std::size_t const before = reading.context.mistakes.count();
   Section section(table, "[[box.walls]]", reading.context);
-  Item const* axis_item = section.find("axis");
-  auto const axis =
-      axis_item ? read_word(*axis_item, "axis", axis_names(reading.dimension), reading.context) : std::nullopt;
   WallOptions options;
   read_options(section, wall_options(), &options, {.dimension = reading.dimension});
   Wall& wall = options.wall;
@@ -72,19 +40,18 @@ void read_wall(Item const& table, Reading& reading) {
     for (char const* key : {"slips", "velocity", "temperature"})
       section.refuse(key, "with open = true there is no wall that has one");
   section.finish();
-  if (!axis || reading.context.mistakes.count() != before || !reading.box) return;
-  int const a = (*axis)[0] - 'x';
+  if (reading.context.mistakes.count() != before || !reading.box) return;
+  int const a = options.axis[0] - 'x';
   Boundary const boundary = reading.box->boundary(a);
   if (boundary != Boundary::mirror && boundary != Boundary::reflecting)
-    return reading.mistake(axis_item->place, fmt::format("axis: {} is {}; walls stand at the ends of axes whose "
-                                                         "boundary is \"mirror\" or \"reflecting\"",
-                                                         *axis, to_string(boundary)));
+    return section.mistake("axis", fmt::format("{} is {}; walls stand at the ends of axes whose boundary is "
+                                               "\"mirror\" or \"reflecting\"",
+                                               options.axis, to_string(boundary)));
   if (boundary == Boundary::reflecting) {
     auto const refuse = [&](char const* key, char const* what) {
-      reading.mistake(section.place(key),
-                      fmt::format("{}: {} is reflecting, where walls {}; what drags or heats is the "
-                                  "wall of an axis whose boundary is \"mirror\"",
-                                  key, *axis, what));
+      section.mistake(key, fmt::format("{} is reflecting, where walls {}; what drags or heats is the wall of an axis "
+                                       "whose boundary is \"mirror\"",
+                                       options.axis, what));
     };
     if (!wall.slips) refuse("slips", "always slip");
     if (section.has("temperature")) refuse("temperature", "are insulated");
@@ -146,13 +113,16 @@ void read_units(Section& document, Reading& reading) {
   if (!table) return;
   Section units(*table, "[units]", reading.context);
   std::size_t const before = reading.context.mistakes.count();
-  Item const* word = units.need("base", "base = \"si\"");
-  auto const name = word ? read_word(*word, "base", base_names, reading.context) : std::nullopt;
+  UnitsOptions options;
+  OptionTable const base = units_options().only({{.key = "base", .needed = "\"si\""}});
+  read_options(units, base, &options, {});
+  read_options(units, units_options(options.base), &options, {});
   UnitSystem chosen;
-  if (name) catch_errors(reading, units.place(), [&] { chosen = read_base(units, *name); });
+  if (reading.context.mistakes.count() == before)
+    catch_errors(reading, units.place(), [&] { chosen = base_of(options); });
   reading.base_known = reading.context.mistakes.count() == before;
   // Without a base nobody knows which keys it would have had.
-  if (name) units.finish();
+  if (!options.base.empty()) units.finish();
   if (reading.base_known) {
     reading.context.units = chosen;
     reading.result->units = chosen;
@@ -260,28 +230,18 @@ void read_run(Section& document, Reading& reading) {
   run.place = table->place;
   run.step_place = section.place("step");
   if (Item const* step = section.find("step")) read_step(*step, run, reading);
-  Item const *steps = section.find("steps"), *time = section.find("time");
-  if (time || steps) section.refuse(steps ? "time" : "steps", "'steps' say how long the run is, too; leave one out");
-  if (time) {
-    run.time_place = time->place;
-    run.time = read_quantity(*time, "time", dimensions::time, reading.context, not_negative);
-  } else if (steps || (steps = section.need("steps", "steps = 1000"))) {
-    run.steps = read_integer(*steps, "steps", 0, std::numeric_limits<std::int64_t>::max(), reading.context).value_or(0);
-  }
-  RunOptions options;
   std::size_t const before = reading.context.mistakes.count();
-  read_options(section, run_options(), &options, {.dimension = reading.dimension});
-  run.seed = static_cast<std::uint64_t>(options.seed);
-  run.threads = options.threads;
-  run.cutoff = options.cutoff;
+  read_options(section, run_options(), static_cast<RunOptions*>(&run), {.dimension = reading.dimension});
+  bool const counted = section.has("steps");
+  if (counted || section.has("time"))
+    section.refuse(counted ? "time" : "steps", "'steps' say how long the run is, too; leave one out");
+  else
+    section.need("steps", "steps = 1000");
   run.cutoff_known = run.cutoff_known || run.cutoff;
+  run.time_place = section.place("time");
   run.cutoff_place = section.place("cutoff");
-  run.skin = options.skin;
-  run.shifted = options.shifted;
   run.skin_place = section.place("skin");
-  run.tolerance = options.tolerance;
   run.tolerance_place = section.place("tolerance");
-  run.substeps = options.substeps;
   run.substeps_place = section.place("substeps");
   if (run.substeps && reading.context.mistakes.count() == before)
     catch_errors(reading, run.substeps_place, [&] { check(*run.substeps); });

@@ -1,11 +1,11 @@
 // Reads [[classes]]: classes that a scenario derives from shipped ones, with fields of their own and rates.
 #include <boltzmann/core/quantity_text.hpp>
-#include <boltzmann/diagnoses/bond_harmonics.hpp>
 #include <boltzmann/formulas/formula_reader.hpp>
 #include <boltzmann/integrators/driven_fields.hpp>
 #include <boltzmann/integrators/methods.hpp>
 #include <boltzmann/particles/derived.hpp>
 #include <boltzmann/scenario/field_values.hpp>
+#include <boltzmann/scenario/read_options.hpp>
 #include <boltzmann/scenario/reading.hpp>
 #include <boltzmann/scenario/tables.hpp>
 
@@ -160,26 +160,24 @@ class ClassReader {
 
   void read_field(Item const& table) {
     Section section(table, "fields", reading_.context);
-    section.explain_said(class_field_options());
+    ClassFieldOptions options;
+    read_options(section, class_field_options(), &options, {.dimension = reading_.dimension});
     AddedField added;
     added.field.offset = 0;
     Field& field = added.field;
-    Item const* name = section.need("name", "name = \"charge\"");
-    if (auto const text = name ? read_text(*name, "name", reading_.context) : std::nullopt)
-      if (can_be_named(*text, name->place)) field.name = *text;
-    auto const kind = section.word("kind", std::vector<std::string>{"scalar", "vector"});
-    added.vector = kind == "vector";
+    Item const* const name = section.item("name");
+    if (name && name->is(Item::Kind::text) && can_be_named(options.name, name->place)) field.name = options.name;
+    added.vector = options.kind == "vector";
     field.components = added.vector ? std::max(reading_.dimension, 1) : 1;
-    if (Item const* unit = section.find("unit"))
-      if (auto const text = read_text(*unit, "unit", reading_.context))
-        catch_errors(reading_, unit->place, [&] {
-          try {
-            field.dimension = parse_quantity("1 " + *text).dimension;
-          } catch (Error const& error) {
-            throw Error(fmt::format("unit: {}", error.what()));
-          }
-        });
-    field.doc = section.text("doc").value_or("");
+    if (!options.unit.empty())
+      catch_errors(reading_, section.place("unit"), [&] {
+        try {
+          field.dimension = parse_quantity("1 " + options.unit).dimension;
+        } catch (Error const& error) {
+          throw Error(fmt::format("unit: {}", error.what()));
+        }
+      });
+    field.doc = options.doc;
     added.value.assign(static_cast<std::size_t>(field.components), 0.0);
     if (Item const* value = section.find("default"); value && reading_.dimension > 0) {
       if (added.vector) {
@@ -189,11 +187,14 @@ class ClassReader {
         added.value = {*read};
       }
     }
-    added.sum = section.boolean("sum");
+    added.sum = options.sum;
     added.period = section.quantity("period", field.dimension, positive).value_or(0);
-    auto around = read_neighbours(section);
+    check_neighbours(section);
     section.finish();
-    around.field.field = field.name;
+    ReadNeighbourField around{{field.name, options.neighbours.value_or(0), options.bond_order},
+                              options.of,
+                              section.place("neighbours"),
+                              section.place("of")};
     if (around.field.range > 0 && !field.name.empty()) result_->neighbour_fields.push_back(std::move(around));
     if (added.period > 0) periods_.push_back({field.name, section.place("period")});
     if (field.name.empty()) return;
@@ -201,29 +202,16 @@ class ClassReader {
     derived_.added.push_back(std::move(added));
   }
 
-  /// Without a range there are none, or a mistake.
-  ReadNeighbourField read_neighbours(Section& section) {
-    ReadNeighbourField around;
-    around.place = section.place("neighbours");
+  /// Keys that mean nothing without `neighbours`, or beside it.
+  void check_neighbours(Section& section) {
     bool const wanted = section.has("neighbours");
-    around.field.range = section.quantity("neighbours", dimensions::length, positive).value_or(0);
     for (char const* other : {"of", "bond_order"})
       if (!wanted) section.refuse(other, "it belongs to 'neighbours', the distance within which particles are that");
-    if (!wanted) return around;
-    if (Item const* of = section.find("of")) {
-      around.among = read_texts(*of, "of", reading_.context);
-      around.among_place = of->place;
-    }
-    if (auto const order = section.integer("bond_order", 1, BondHarmonics::largest_order)) {
-      around.field.order = static_cast<std::size_t>(*order);
-      if (reading_.dimension == 1)
-        mistake(section.place("bond_order"), "bond_order: on a line neighbours have no directions");
-    }
+    if (wanted && section.has("bond_order") && reading_.dimension == 1)
+      section.mistake("bond_order", "on a line neighbours have no directions");
     for (char const* other : {"kind", "unit", "default", "sum", "period"})
-      if (section.has(other))
-        mistake(section.place(other),
-                fmt::format("{}: it means nothing beside 'neighbours', which find a number", other));
-    return around;
+      if (wanted && section.has(other))
+        section.mistake(other, "it means nothing beside 'neighbours', which find a number");
   }
 
   bool can_be_named(std::string const& name, Place const& place) {

@@ -10,25 +10,11 @@
 #include <memory>
 
 namespace boltzmann {
-namespace {
-
-Vector<2> read_pair(Section& section, char const* key, Dimension dimension, Reading& reading) {
-  Item const* item = section.find(key);
-  auto const read =
-      item && reading.dimension == 2 ? read_vector(*item, key, 2, dimension, reading.context) : std::nullopt;
-  return read ? Vector<2>{(*read)[0], (*read)[1]} : Vector<2>{};
-}
-
-}  // namespace
-
 void read_cylinder(Item const& table, Reading& reading) {
   std::size_t const before = reading.context.mistakes.count();
   Section section(table, "[cylinder_flow]", reading.context);
   CylinderOptions options;
   read_options(section, cylinder_options(), &options, {.dimension = reading.dimension});
-  if (!section.has("radius")) reading.mistake(section.place(), "[cylinder_flow] has no 'radius'; add e.g. radius = 1");
-  options.centre = read_pair(section, "centre", dimensions::length, reading);
-  options.stream = read_pair(section, "stream", dimensions::velocity, reading);
   section.finish();
   if (!reading.box || reading.context.mistakes.count() != before) return;
   catch_errors(reading, table.place,

@@ -91,22 +91,7 @@ std::pair<ReadEnsemble*, ReadEnsemble*> read_pair(Section& section, Reading& rea
     ReadEnsemble* one = reading.ensemble(*on, "on");
     return {one, one};
   }
-  if (!between->is(Item::Kind::array) || between->elements.size() != 2) {
-    reading.mistake(
-        between->place,
-        fmt::format("between: the names of two ensembles are needed, [\"a\", \"b\"], not {}{}", describe(*between),
-                    between->is(Item::Kind::array) ? fmt::format(" of {}", between->elements.size()) : ""));
-    return {};
-  }
-  ReadEnsemble *a = reading.ensemble(between->elements[0], "between"),
-               *b = reading.ensemble(between->elements[1], "between");
-  if (a && a == b) {
-    reading.mistake(between->elements[1].place, fmt::format("between: '{}' twice; within one ensemble write on = "
-                                                            "\"{}\"",
-                                                            a->name, a->name));
-    return {};
-  }
-  return {a, b};
+  return two_ensembles(*between, reading);
 }
 
 /// method, corrector and metropolis stand in the first of all of kind "dpd".
@@ -373,22 +358,12 @@ std::unique_ptr<HeatBath> make_bath(std::string const& kind, ReadBath const& rea
   return make_bath<LangevinBath>(read, reading);
 }
 
-/// One ensemble, or a list of them.
-std::vector<std::pair<ReadEnsemble const*, Place>> read_bath_ensembles(Item const& on, Reading& reading) {
-  std::vector<std::pair<ReadEnsemble const*, Place>> read;
-  std::vector<Item> const one{on};
-  if (read_texts(on, "on", reading.context).empty()) return read;
-  for (Item const& word : on.is(Item::Kind::array) ? on.elements : one)
-    if (ReadEnsemble const* ensemble = reading.ensemble(word, "on")) read.emplace_back(ensemble, word.place);
-  return read;
-}
-
 void read_heat_bath(Section& section, DissipationKind const& kind, Dissipations& all) {
   Reading& reading = all.reading;
   std::size_t const before = reading.context.mistakes.count();
   section.explain_said(dissipation_pair_options());
   Item const* on = section.need("on", "on = \"atoms\"");
-  auto const ensembles = on ? read_bath_ensembles(*on, reading) : std::vector<std::pair<ReadEnsemble const*, Place>>{};
+  auto const ensembles = named_ensembles(on, "on", reading);
   auto const read = read_bath(section, kind.options, reading);
   section.finish();
   if (reading.context.mistakes.count() != before || !read) return;
@@ -435,7 +410,7 @@ std::vector<ReadEnsemble const*> to_be_equilibrated(Item const* on, Reading& rea
         chosen.push_back(&ensemble);
     return chosen;
   }
-  for (auto const& [ensemble, place] : read_bath_ensembles(*on, reading))
+  for (auto const& [ensemble, place] : named_ensembles(on, "on", reading))
     if (supports(*ensemble, place, "on", reading) && std::find(chosen.begin(), chosen.end(), ensemble) == chosen.end())
       chosen.push_back(ensemble);
   return chosen;

@@ -13,23 +13,21 @@ namespace {
 void read_dye(Item const& table, Reading& reading) {
   std::size_t const before = reading.context.mistakes.count();
   Section section(table, "[[dye]]", reading.context);
-  Item const *on = section.need("on", "on = \"dye\""), *from = section.need("from", "from = [-2, 0]"),
-             *to = section.find("to");
-  ReadEnsemble* const ensemble = on ? reading.ensemble(*on, "on") : nullptr;
   DyeOptions options;
   read_options(section, dye_options(), &options, {.dimension = reading.dimension});
-  auto const place = [&](Item const& item, char const* key, std::array<double, 3>& to_be) {
-    if (reading.dimension == 0) return;
-    auto const read = read_vector(item, key, reading.dimension, dimensions::length, reading.context);
-    if (read) std::copy(read->begin(), read->end(), to_be.begin());
-    for (int a = 0; read && reading.box && a < reading.dimension; ++a) {
-      double const x = (*read)[static_cast<std::size_t>(a)];
+  Item const* const on = section.find("on");
+  ReadEnsemble* const ensemble = on ? reading.ensemble(*on, "on") : nullptr;
+  auto const check_inside = [&](char const* key, std::array<double, 3> const& place) {
+    for (int a = 0; reading.box && a < reading.dimension; ++a) {
+      double const x = place[static_cast<std::size_t>(a)];
       if (reading.box->boundary(a) != Boundary::open && !(x >= reading.box->low(a) && x <= reading.box->high(a)))
-        reading.mistake(item.place, fmt::format("{}: {} = {} is outside the box", key, "xyz"[a], x));
+        section.mistake(key, fmt::format("{} = {} is outside the box", "xyz"[a], x));
     }
   };
-  if (from) place(*from, "from", options.from);
-  if (to) place(*to, "to", options.to.emplace());
+  if (reading.context.mistakes.count() == before) {
+    check_inside("from", options.from);
+    if (options.to) check_inside("to", *options.to);
+  }
   section.finish();
   if (!ensemble || !ensemble->particles || reading.context.mistakes.count() != before) return;
   if (ensemble->integrator && !ensemble->integrator->same_for_all())

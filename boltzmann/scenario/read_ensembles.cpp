@@ -88,9 +88,12 @@ class EnsembleReader {
   }
 
   void read_keys() {
-    read_options(section_, ensemble_options().only({{"name"}, {"number"}, {"integrator"}, {"colour"}, {"diameter"}}),
-                 &options_, {.dimension = reading_.dimension});
+    read_options(
+        section_,
+        ensemble_options().only({{"name"}, {"number"}, {"molecule"}, {"integrator"}, {"colour"}, {"diameter"}}),
+        &options_, {.dimension = reading_.dimension});
     ensemble_.name = options_.name;
+    ensemble_.molecules.length = options_.molecule;
     if (Item const* item = section_.item("name"); item && item->is(Item::Kind::text)) {
       if (item->text.empty()) mistake(item->place, "name: an ensemble needs a name, not an empty text");
       for (auto const& other : reading_.ensembles)
@@ -146,10 +149,7 @@ class EnsembleReader {
     auto given = given_fields(*kind_, reading_.dimension);
     if (Item const* item = section_.item("internal_energy"); item && item->is(Item::Kind::table))
       std::erase_if(given, [](Field const& field) { return field.name == "internal_energy"; });
-    Item const* molecule = section_.item("molecule");
-    bool const counted = molecule && molecule->is(Item::Kind::integer) && molecule->integer > 0;
-    fields_ = read_fields(section_, given, false, count_, reading_,
-                          counted ? static_cast<std::size_t>(molecule->integer) : 0);
+    fields_ = read_fields(section_, given, false, count_, reading_, options_.molecule);
     formulas_ = read_formulas(section_, fields_of(*kind_, reading_.dimension), false, unknown_fields(section_, *kind_),
                               reading_);
     for (auto const& formula : formulas_)

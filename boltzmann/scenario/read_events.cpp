@@ -93,17 +93,10 @@ std::vector<ChosenParticles> who_is_moved(std::vector<Moved> const& moved, doubl
 /// `on` and `where`.
 std::vector<Moved> read_moved(Section& section, Reading& reading) {
   Item const *on = section.find("on"), *where = section.find("where");
-  std::vector<std::pair<ReadEnsemble const*, Place>> read;
-  if (on) {
-    std::vector<Item> const one{*on};
-    if (read_texts(*on, "on", reading.context).empty()) return {};
-    for (Item const& word : on->is(Item::Kind::array) ? on->elements : one)
-      if (ReadEnsemble const* ensemble = reading.ensemble(word, "on")) read.emplace_back(ensemble, word.place);
-  } else {
-    for (auto const& ensemble : reading.ensembles)
-      if (ensemble.particles && ensemble.particles->find_field("velocity"))
-        read.emplace_back(&ensemble, ensemble.place);
-  }
+  auto read = named_ensembles(on, "on", reading);
+  for (auto& ensemble : reading.ensembles)
+    if (!on && ensemble.particles && ensemble.particles->find_field("velocity"))
+      read.push_back({&ensemble, ensemble.place});
   std::vector<Moved> moved;
   for (auto const& [ensemble, place] : read) {
     if (!ensemble->particles) continue;

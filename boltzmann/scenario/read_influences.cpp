@@ -4,6 +4,7 @@
 #include <boltzmann/scenario/among.hpp>
 #include <boltzmann/scenario/field_formulas.hpp>
 #include <boltzmann/scenario/laws.hpp>
+#include <boltzmann/scenario/read_options.hpp>
 #include <boltzmann/scenario/reading.hpp>
 #include <boltzmann/scenario/tables.hpp>
 #include <boltzmann/schemes/mesh/mesh_scheme.hpp>
@@ -15,6 +16,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 namespace boltzmann {
 namespace {
@@ -85,6 +87,7 @@ class InfluenceReader {
     on_ = section_.find("on");
     if (!external()) by_ = section_.find("by"), between_ = section_.find("between");
     read_ensembles();
+    read_plain_keys();
     read_every();
     if (!law_ || refused_with_smooth() || refused_with_bodies()) return;
     auto const parameters = read_parameters(section_, fmt::format("law '{}'", law_->name), law_->parameters, reading_);
@@ -92,8 +95,8 @@ class InfluenceReader {
       only_ = read_particles(section_, a_ ? a_->particles : nullptr, reading_);
     else
       read_pairs();
-    read_end();
-    read_tail();
+    check_end();
+    check_tail();
     section_.finish();
     bool const there =
         a_ && b_ && a_->particles && b_->particles && (a_->smooth() ? smooth_ != nullptr : pairs_ != nullptr);
@@ -101,7 +104,21 @@ class InfluenceReader {
   }
 
  private:
-  bool external() const { return typed_item_ ? from_outside_ : law_ && law_->kind == LawKind::external; }
+  bool external() const { return typed_item_ ? options_.from_outside : law_ && law_->kind == LawKind::external; }
+
+  /// Numbers, words and flags that it may have.
+  void read_plain_keys() {
+    std::vector<OptionKey> keys{{"every"}, {"tail"}};
+    if (!external())
+      for (char const* key : {"cutoff", "precision", "bonded_factors", "at_cutoff", "switch_from"})
+        keys.push_back({key});
+    read_only(std::move(keys));
+    typed_.at_cutoff = options_.at_cutoff;
+    typed_.switch_from = options_.switch_from.value_or(0);
+  }
+  void read_only(std::vector<OptionKey> keys) {
+    read_options(section_, influence_options().only(keys), &options_, {.dimension = reading_.dimension});
+  }
 
   // ---- A law that is typed ----
 
@@ -116,31 +133,32 @@ class InfluenceReader {
       reading_.mistake(section_.place("law"), fmt::format("law: there is {} already; leave one out",
                                                           by_energy ? "an energy" : "an influence"));
     section_.allow("law"), section_.allow("influence");
-    from_outside_ = section_.boolean("from_outside");
+    read_only({{"from_outside"}});
+    bool const from_outside = options_.from_outside;
     on_ = section_.find("on");
-    if (!from_outside_) by_ = section_.find("by"), between_ = section_.find("between");
+    if (!from_outside) by_ = section_.find("by"), between_ = section_.find("between");
     typed_.gives = by_energy ? FormulaLaw::Gives::energy : FormulaLaw::Gives::influence;
     typed_.units = reading_.context.units;
     if (by_energy)
       section_.refuse("changes",
                       "an energy moves particles; what changes a field is an influence, which gives its rate");
     else
-      read_changes();
+      read_only({{"changes"}}), typed_.changes = options_.changes;
     auto const text = read_text(*typed_item_, by_energy ? "energy" : "influence", reading_.context);
     if (text) typed_.text = *text;
     typed_.parameters = read_formula_parameters(section_, reading_);
-    Item const* where = from_outside_ ? section_.item("where") : nullptr;
-    if (!from_outside_ || (where && where->is(Item::Kind::table)))
-      typed_.where = read_formula_parts(section_, reading_);
+    Item const* where = from_outside ? section_.item("where") : nullptr;
+    if (!from_outside || (where && where->is(Item::Kind::table))) typed_.where = read_formula_parts(section_, reading_);
     reading_.refuse_neighbour_fields(typed_.text, by_energy ? "energy" : "influence", law_place_);
     for (auto const& part : typed_.where)
       reading_.refuse_neighbour_fields(part.text, "where." + part.name, section_.place("where"));
     read_ensembles();
+    read_plain_keys();
     read_every();
-    read_end();
+    check_end();
     read_tuples();
-    read_tail();
-    if (!from_outside_)
+    check_tail();
+    if (!from_outside)
       read_pairs();
     else if (!where || !where->is(Item::Kind::table))
       only_ = read_particles(section_, a_ ? a_->particles : nullptr, reading_);
@@ -152,7 +170,7 @@ class InfluenceReader {
       reading_.mistake(law_place_, "typed laws don't act on smooth particles yet, which are moved by their 'material'");
     bool const there = a_ && b_ && a_->particles && b_->particles && pairs_;
     if (reading_.context.mistakes.count() != before_ || !there) return;
-    double const reach = from_outside_ || connect_ || tuples() ? no_cutoff : reach_of_pairs();
+    double const reach = from_outside || connect_ || tuples() ? no_cutoff : reach_of_pairs();
     if (reading_.context.mistakes.count() != before_ || std::isnan(reach)) return;
     note_jump(reach);
     add_typed(reach, by_energy ? "energy" : "influence");
@@ -160,13 +178,14 @@ class InfluenceReader {
 
   void add_typed(double reach, char const* key) {
     AnyEnsemble &a = *a_->particles, &b = *b_->particles;
+    bool const from_outside = options_.from_outside;
     try {
-      BondedFactors const bonded(*pairs_, *a_, factors_);
+      BondedFactors const bonded(*pairs_, *a_, options_.bonded_factors);
       if (angles_)
         molecule_scheme(reading_).angles(a, angle_members_, typed_);
       else if (dihedrals_)
         molecule_scheme(reading_).dihedrals(a, dihedral_members_, typed_);
-      else if (from_outside_)
+      else if (from_outside)
         pairs_->external(a, typed_, only_ ? &*only_ : nullptr);
       else if (connect_)
         pairs_->connect(a, connections_, typed_);
@@ -176,7 +195,7 @@ class InfluenceReader {
         pairs_->between(a, b, typed_, reach);
       else
         pairs_->internal(a, typed_, reach);
-      if (typed_.changes.empty() && !from_outside_ && !tuples())
+      if (typed_.changes.empty() && !from_outside && !tuples())
         reading_.result->typed_laws.push_back({fmt::format("influences.{}.{}", number_, key), typed_, &a, &b, reach});
       add_tail(typed_, reach);
     } catch (FormulaPartError const& error) {
@@ -205,12 +224,6 @@ class InfluenceReader {
     if (angles_) angle_members_ = read_angles(*angles_, a_, reading_);
     if (dihedrals_) dihedral_members_ = read_dihedrals(*dihedrals_, a_, reading_);
   }
-  /// Of which field of those that it acts on it gives the rate.
-  void read_changes() {
-    Item const* item = section_.find("changes");
-    auto const field = item ? read_text(*item, "changes", reading_.context) : std::nullopt;
-    if (field) typed_.changes = *field;
-  }
   /// A mistake if an ensemble has no such field, or one that does not change.
   void check_changes(ReadEnsemble const* one) {
     if (typed_.changes.empty() || !one || !one->particles) return;
@@ -230,44 +243,32 @@ class InfluenceReader {
   }
 
   /// at_cutoff, switch_from.
-  void read_end() {
-    using AtCutoff = FormulaLaw::AtCutoff;
-    static constexpr std::pair<char const*, AtCutoff> ways[] = {
-        {"cut", AtCutoff::cut}, {"shift", AtCutoff::shift}, {"switch", AtCutoff::switched}};
-    if (Item const* item = section_.find("at_cutoff")) {
-      if (external() || section_.has("connect"))
-        reading_.mistake(item->place, fmt::format("at_cutoff: {} no cut-off",
-                                                  external() ? "what comes from outside has" : "connections have"));
-      std::vector<std::string> words;
-      for (auto const& [word, way] : ways) words.emplace_back(word);
-      auto const word = read_word(*item, "at_cutoff", words, reading_.context);
-      if (!word) return section_.allow("switch_from");
-      for (auto const& [name, way] : ways)
-        if (*word == name) typed_.at_cutoff = way;
-    }
-    if (typed_.at_cutoff != AtCutoff::switched)
+  void check_end() {
+    if (external() || section_.has("connect"))
+      section_.refuse("at_cutoff",
+                      external() ? "what comes from outside has no cut-off" : "connections have no cut-off");
+    Item const* const item = section_.item("at_cutoff");
+    bool const wrong = item && options_.at_cutoff == FormulaLaw::AtCutoff::cut && item->text != "cut";
+    if (options_.at_cutoff != FormulaLaw::AtCutoff::switched && !wrong)
       section_.refuse("switch_from", "it belongs to at_cutoff = \"switch\"");
-    else if (auto const from = section_.quantity("switch_from", dimensions::length, positive))
-      typed_.switch_from = *from;
   }
   /// Energy and pressure of pairs beyond the cut-off.
-  void read_tail() {
-    tail_ = section_.boolean("tail");
-    if (!tail_) return;
+  void check_tail() {
+    if (!options_.tail) return;
     Place const place = section_.place("tail");
     if (external() || section_.has("connect"))
       reading_.mistake(
           place, fmt::format("tail: {} no cut-off", external() ? "what comes from outside has" : "connections have"));
     else if (by_)
       reading_.mistake(place, "tail: it is of pairs that act on each other; write 'on' alone, or 'between'");
-    else if (typed_.at_cutoff != FormulaLaw::AtCutoff::cut)
+    else if (options_.at_cutoff != FormulaLaw::AtCutoff::cut)
       reading_.mistake(place, "tail: a law that is shifted or switched ends at its cut-off; leave out one of the two");
     else if (reading_.run.shifted)
       reading_.mistake(
           place, "tail: energies of pairs are counted from the cut-off; with a tail write shifted = false in [run]");
   }
   void add_tail(FormulaLaw const& law, double reach) {
-    if (!tail_) return;
+    if (!options_.tail) return;
     catch_errors(reading_, section_.place("tail"), [&] {
       auto* tails = reading_.result->scheme<TailCorrection>();
       if (!tails) {
@@ -281,8 +282,8 @@ class InfluenceReader {
 
   /// Barostats want to know of energies that jump where pairs cross the cut-off.
   void note_jump(double reach) {
-    if (std::isfinite(reach) && !reading_.run.shifted && !tail_ && typed_.at_cutoff == FormulaLaw::AtCutoff::cut &&
-        !reading_.jump)
+    if (std::isfinite(reach) && !reading_.run.shifted && !options_.tail &&
+        typed_.at_cutoff == FormulaLaw::AtCutoff::cut && !reading_.jump)
       reading_.jump = law_place_;
   }
 
@@ -301,7 +302,7 @@ class InfluenceReader {
   /// The same law, ended at the cut-off; a mistake if it can't be.
   void install_ended(ParameterValues const& parameters, double reach) {
     AnyEnsemble &a = *a_->particles, &b = *b_->particles;
-    if (single_) throw Error("at_cutoff: in single precision laws have no cut-off");
+    if (single()) throw Error("at_cutoff: in single precision laws have no cut-off");
     FormulaLaw const law = typed_twin(parameters);
     if (by_)
       pairs_->one_way(a, b, law, reach);
@@ -339,12 +340,13 @@ class InfluenceReader {
     if (between_ && (on_ || by_))
       return reading_.mistake(between_->place,
                               "[[influences]] needs 'on', or 'on' and 'by', or 'between', not more of them");
-    if (between_) return read_both();
-    if (on_) {
+    if (between_) {
+      std::tie(a_, b_) = two_ensembles(*between_, reading_);
+    } else if (on_) {
       a_ = b_ = reading_.ensemble(*on_, "on");
       if (!by_) return;
       b_ = reading_.ensemble(*by_, "by");
-      if (a_ && a_ == b_) refuse_twice(*by_, "by");
+      if (a_ && a_ == b_) refuse_twice(*by_, "by", reading_), a_ = nullptr;
     } else if (by_) {
       reading_.mistake(by_->place, "by: it says who acts; on whom says 'on', which is missing");
     } else if (section_.has("one_way")) {
@@ -358,36 +360,21 @@ class InfluenceReader {
                        fmt::format("{} comes from outside and needs 'on', e.g. on = \"atoms\"", called()));
     }
   }
-  void read_both() {
-    if (!between_->is(Item::Kind::array) || between_->elements.size() != 2)
-      return reading_.mistake(
-          between_->place,
-          fmt::format("between: the names of two ensembles are needed, [\"a\", \"b\"], not {}{}", describe(*between_),
-                      between_->is(Item::Kind::array) ? fmt::format(" of {}", between_->elements.size()) : ""));
-    a_ = reading_.ensemble(between_->elements[0], "between");
-    b_ = reading_.ensemble(between_->elements[1], "between");
-    if (a_ && a_ == b_) refuse_twice(between_->elements[1], "between");
-  }
-  void refuse_twice(Item const& item, char const* key) {
-    reading_.mistake(item.place,
-                     fmt::format("{}: '{}' twice; within one ensemble write on = \"{}\"", key, a_->name, a_->name));
-    a_ = nullptr;
-  }
 
   /// Slow laws have a scheme of their own, one for each number of steps.
   void read_every() {
-    Item const* item = section_.find("every");
-    auto const steps = item ? read_integer(*item, "every", 1, 1'000'000, reading_.context) : std::nullopt;
-    if (!steps || *steps == 1 || !pairs_ || !reading_.box) return;
+    std::int64_t const steps = options_.every;
+    if (steps == 1 || !pairs_ || !reading_.box) return;
+    Place const place = section_.place("every");
     if (a_ && a_->smooth())
-      return reading_.mistake(item->place, "every: laws on smooth particles are calculated in each step; leave it out");
+      return reading_.mistake(place, "every: laws on smooth particles are calculated in each step; leave it out");
     if (reading_.result->scheme<MeshScheme>())
       return reading_.mistake(
-          item->place,
+          place,
           "every: a scenario with a [mesh] has all its pair laws in that scheme, which is calculated "
           "in each step; leave it out");
     for (auto const& [slow, of_slow] : reading_.slow)
-      if (of_slow == *steps)
+      if (of_slow == steps)
         if (auto* pairs = dynamic_cast<PairScheme*>(slow)) {
           pairs_ = pairs;
           return;
@@ -396,21 +383,15 @@ class InfluenceReader {
     own->threads(reading_.run.threads);
     if (reading_.run.skin) own->skin(*reading_.run.skin);
     pairs_ = own.get();
-    reading_.slow.emplace_back(pairs_, *steps);
+    reading_.slow.emplace_back(pairs_, steps);
     reading_.result->schemes.push_back(std::move(own));
   }
 
   void read_pairs() {
-    cutoff_ = section_.quantity("cutoff", dimensions::length, positive);
-    Item const* precision = section_.find("precision");
-    auto const word =
-        precision ? read_word(*precision, "precision", std::vector<std::string>{"full", "single"}, reading_.context)
-                  : std::nullopt;
-    single_ = word == "single";
     connect_ = section_.find("connect");
-    read_bonded_factors();
+    check_bonded_factors();
     if (!connect_) return;
-    if (single_) reading_.mistake(precision->place, "precision: connections have full precision only");
+    if (single()) reading_.mistake(section_.place("precision"), "precision: connections have full precision only");
     if (connect_->is(Item::Kind::text)) {
       if (connects_bonds(*connect_, a_, reading_) && a_) connections_ = connections_of(a_->molecules.bonds);
     } else {
@@ -420,13 +401,11 @@ class InfluenceReader {
     if (section_.has("cutoff")) reading_.mistake(section_.place("cutoff"), "cutoff: connections have none");
   }
 
-  void read_bonded_factors() {
-    Item const* item = section_.find("bonded_factors");
-    if (!item) return;
-    auto const wrong = [&](char const* what) {
-      reading_.mistake(item->place, fmt::format("bonded_factors: {}", what));
-    };
-    factors_ = boltzmann::read_bonded_factors(section_, reading_);
+  bool single() const { return options_.precision == "single"; }
+
+  void check_bonded_factors() {
+    if (!section_.has("bonded_factors")) return;
+    auto const wrong = [&](char const* what) { section_.mistake("bonded_factors", what); };
     if (connect_) wrong("connections are fixed pairs already; leave it out");
     if (between_ || by_) wrong("particles of two ensembles are not bonded; write 'on'");
     if (a_ && a_->particles && a_->molecules.bonds.empty())
@@ -462,7 +441,7 @@ class InfluenceReader {
     note_jump(reach);
     catch_errors(reading_, law_place_, [&] {
       std::optional<BondedFactors> bonded;
-      if (!factors_.empty()) bonded.emplace(*pairs_, *a_, factors_);
+      if (!options_.bonded_factors.empty()) bonded.emplace(*pairs_, *a_, options_.bonded_factors);
       if (smooth)
         install_external(*smooth_, *law_, parameters, a);
       else if (external())
@@ -476,8 +455,8 @@ class InfluenceReader {
                       between_ ? LawUse::between
                       : by_    ? LawUse::one_way
                                : LawUse::internal,
-                      a, b, reach, single_);
-      if (tail_) add_tail(typed_twin(parameters), reach);
+                      a, b, reach, single());
+      if (options_.tail) add_tail(typed_twin(parameters), reach);
     });
     act_on_bodies(parameters);
   }
@@ -548,8 +527,9 @@ class InfluenceReader {
 
   /// A mistake if periodic axes do not allow it; NaN: it is not known.
   double reach_of_pairs() {
-    if (!cutoff_ && !reading_.run.cutoff_known) return std::numeric_limits<double>::quiet_NaN();
-    double const reach = cutoff_ ? *cutoff_ : reading_.run.cutoff.value_or(no_cutoff);
+    auto const& own = options_.cutoff;
+    if (!own && !reading_.run.cutoff_known) return std::numeric_limits<double>::quiet_NaN();
+    double const reach = own ? *own : reading_.run.cutoff.value_or(no_cutoff);
     for (int axis = 0; axis < reading_.dimension; ++axis) {
       double const most = reading_.box->length(axis);
       if (!reading_.box->periodic(axis) || reach <= most) continue;
@@ -576,14 +556,11 @@ class InfluenceReader {
   Place law_place_;
   Item const* typed_item_ = nullptr;
   FormulaLaw typed_;
-  bool from_outside_ = false, tail_ = false;
+  InfluenceOptions options_;
   Item const *on_ = nullptr, *by_ = nullptr, *between_ = nullptr, *connect_ = nullptr;
   ReadEnsemble *a_ = nullptr, *b_ = nullptr;
-  std::optional<double> cutoff_;
-  bool single_ = false;
   std::optional<std::vector<std::uint32_t>> only_;
   std::vector<Connection> connections_;
-  std::vector<double> factors_;
   Item const *angles_ = nullptr, *dihedrals_ = nullptr;
   std::vector<AngleMembers> angle_members_;
   std::vector<DihedralMembers> dihedral_members_;

@@ -28,12 +28,6 @@ double memory_of(double count, ClassVariant const& variant) {
   return count * (3.0 * static_cast<double>(variant.row_bytes) + 200);
 }
 
-/// The axis that a key names, from 0 on; `otherwise` if it is missing or wrong.
-int read_axis(Section& section, char const* key, int otherwise, Reading const& reading) {
-  auto const word = section.word(key, axis_names(reading.dimension));
-  return word ? (*word)[0] - 'x' : otherwise;
-}
-
 /// What `mode` or `wave_number` say.
 Wave wave_of(LoadOptions const& options, Section& section, Reading& reading) {
   int const axis = options.axis[0] - 'x';
@@ -66,14 +60,11 @@ VelocityRipple read_velocity_ripple(Item const& item, Reading& reading) {
     return {};
   }
   Section section(item, "velocity_ripple", reading.context);
-  VelocityRipple ripple;
   LoadOptions options;
-  read_options(section, wave_options(), &options, {.dimension = reading.dimension});
-  ripple.wave = wave_of(options, section, reading);
-  ripple.component = read_axis(section, "component", ripple.wave.axis, reading);
-  ripple.amplitude = section.need_quantity("amplitude", dimensions::velocity, "amplitude = 0.1").value_or(0);
+  read_options(section, ripple_options(), &options, {.dimension = reading.dimension});
+  Wave const wave = wave_of(options, section, reading);
   section.finish();
-  return ripple;
+  return {wave, options.amplitude, options.component.empty() ? wave.axis : options.component[0] - 'x'};
 }
 
 /// What each kind reads besides its options, and how it puts particles in their places.
@@ -363,24 +354,19 @@ void Loader::refuse_overlapping_ends(std::array<double, 3> const& lengths) {
 void Loader::read_corners() {
   if (std::exchange(corners_read_, true)) return;
   int const dimension = reading_.dimension;
-  std::size_t const before = reading_.context.mistakes.count();
-  Item const *low_item = section_.find("low"), *high_item = section_.find("high");
   for (int a = 0; a < dimension && reading_.box; ++a) {
     low_[static_cast<std::size_t>(a)] = reading_.box->low(a);
     high_[static_cast<std::size_t>(a)] = reading_.box->high(a);
   }
-  for (auto const& [item, edge] : {std::pair(low_item, &low_), std::pair(high_item, &high_)})
-    if (item && dimension > 0)
-      if (auto const at =
-              read_vector(*item, item == low_item ? "low" : "high", dimension, dimensions::length, reading_.context))
-        std::copy(at->begin(), at->end(), edge->begin());
-  if (reading_.box)
-    for (std::size_t a = 0; a < static_cast<std::size_t>(dimension); ++a)
-      if (!(low_[a] < high_[a]) && reading_.context.mistakes.count() == before)
-        reading_.mistake(
-            high_item ? high_item->place : low_item->place,
-            fmt::format("{}: {} must be {} {} along {}", high_item ? "high" : "low", high_item ? high_[a] : low_[a],
-                        high_item ? "above" : "below", high_item ? low_[a] : high_[a], "xyz"[a]));
+  low_ = options_.low.value_or(low_), high_ = options_.high.value_or(high_);
+  if (!reading_.box || section_.has("low") != options_.low.has_value() ||
+      section_.has("high") != options_.high.has_value())
+    return;
+  for (std::size_t a = 0; a < static_cast<std::size_t>(dimension); ++a)
+    if (!(low_[a] < high_[a]))
+      section_.mistake(options_.high ? "high" : "low",
+                       fmt::format("{} must be {} {} along {}", options_.high ? high_[a] : low_[a],
+                                   options_.high ? "above" : "below", options_.high ? low_[a] : high_[a], "xyz"[a]));
 }
 
 void Loader::read_where() {
@@ -479,47 +465,44 @@ double Loader::read_positions() {
 }
 
 double Loader::read_file() {
-  Item const* path_item = section_.find("path");
-  auto const path = path_item ? read_path(*path_item, "path", reading_.context) : std::nullopt;
-  Item const* species_item = section_.find("species");
-  if (!path) return 0;
-  if (!catch_errors(reading_, path_item->place, [&] {
-        frame_ = from_particle_file(*path, {.frame = static_cast<std::size_t>(options_.frame),
-                                            .format = options_.format,
-                                            .units = options_.units,
-                                            .style = options_.style});
+  Place const path = section_.place("path");
+  if (options_.path.empty()) return 0;
+  if (!catch_errors(reading_, path, [&] {
+        frame_ = from_particle_file(options_.path, {.frame = static_cast<std::size_t>(options_.frame),
+                                                    .format = options_.format,
+                                                    .units = options_.units,
+                                                    .style = options_.style});
       }))
     return 0;
   if (reading_.box)
-    catch_errors(reading_, path_item->place, [&] {
+    catch_errors(reading_, path, [&] {
       if (auto const line = lattice_misfit(frame_, *reading_.box, frame_options()); !line.empty())
         throw Error("path: " + line);
     });
   double count = 0;
-  catch_errors(reading_, species_item ? species_item->place : path_item->place,
+  catch_errors(reading_, section_.place(section_.has("species") ? "species" : "path"),
                [&] { count = static_cast<double>(count_species(frame_, options_.species)); });
   return count;
 }
 
 double Loader::read_frame() {
-  Item const* item = section_.find("path");
-  auto const path = item ? read_path(*item, "path", reading_.context) : std::nullopt;
-  if (!path) return 0;
+  std::string const& path = options_.path;
+  if (path.empty()) return 0;
   double count = 0;
-  catch_errors(reading_, item->place, [&] {
-    stored_.emplace(*path);
+  catch_errors(reading_, section_.place("path"), [&] {
+    stored_.emplace(path);
     if (options_.ensemble.empty()) options_.ensemble = ensemble_;
     auto const frames = static_cast<std::int64_t>(stored_->frames());
     std::int64_t const frame = section_.has("frame") ? options_.frame : -1;
     if (frame >= frames || frame < -frames)
-      throw Error(fmt::format("path: '{}' has {} frames, there is none of number {}", *path, frames, frame));
+      throw Error(fmt::format("path: '{}' has {} frames, there is none of number {}", path, frames, frame));
     stored_frame_ = static_cast<std::size_t>(frame < 0 ? frame + frames : frame);
     auto const& stored = stored_->find(options_.ensemble);
     if (reading_.dimension > 0 && stored.dimension != reading_.dimension)
-      throw Error(fmt::format("path: '{}' is in {}D, the box in {}D", *path, stored.dimension, reading_.dimension));
+      throw Error(fmt::format("path: '{}' is in {}D, the box in {}D", path, stored.dimension, reading_.dimension));
     count = static_cast<double>(stored_->size(stored_frame_, options_.ensemble));
     if (count == 0)
-      throw Error(fmt::format("path: that frame of '{}' has no particles of '{}'", *path, options_.ensemble));
+      throw Error(fmt::format("path: that frame of '{}' has no particles of '{}'", path, options_.ensemble));
   });
   return count;
 }

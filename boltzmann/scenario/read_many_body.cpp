@@ -25,18 +25,18 @@ bool moved_by_force(ReadEnsemble const& ensemble) {
 template <class Add>
 void add_atoms(Item const& table, char const* heading, Reading& reading, Add const& add) {
   Section section(table, heading, reading.context);
-  auto on = named_ensembles(section, "on", reading);
-  if (!section.has("on"))
-    for (auto& ensemble : reading.ensembles) on.push_back(&ensemble);
-  for (auto const* ensemble : on)
-    if (!ensemble || !ensemble->particles || !ensemble->kind) return;
-  if (!section.has("on")) std::erase_if(on, [](ReadEnsemble const* ensemble) { return !moved_by_force(*ensemble); });
-  if (on.empty() && !reading.ensembles.empty())
+  auto on = named_ensembles(section.find("on"), "on", reading);
+  bool const all = !section.has("on");
+  if (all)
+    for (auto& ensemble : reading.ensembles) on.push_back({&ensemble, table.place});
+  for (auto const& one : on)
+    if (!one.ensemble->particles || !one.ensemble->kind) return;
+  if (all) std::erase_if(on, [](NamedEnsemble const& one) { return !moved_by_force(*one.ensemble); });
+  if (all && on.empty() && !reading.ensembles.empty())
     reading.mistake(table.place, fmt::format("{}: no ensemble is of particles that a force moves; class Newton and "
                                              "those derived from it are",
                                              heading));
-  Place const place = section.has("on") ? section.place("on") : table.place;
-  for (auto* ensemble : on) catch_errors(reading, place, [&] { add(*ensemble->particles); });
+  for (auto const& one : on) catch_errors(reading, section.place("on"), [&] { add(*one.ensemble->particles); });
 }
 
 /// The element of each ensemble that `elements` names.
@@ -108,9 +108,6 @@ void read_embedded_atoms(Item const& table, Reading& reading) {
   EmbeddedAtomOptions options;
   read_options(section, embedded_atom_options(*potential), &options, {.dimension = reading.dimension});
   if (*potential == MetalPotential::formulas) read_formulas(section, options, reading);
-  if (*potential == MetalPotential::file)
-    if (Item const* const path = section.item("file"))
-      options.file = read_path(*path, "file", reading.context).value_or("");
   section.finish();
   if (!reading.box || reading.context.mistakes.count() != before) return;
   Place const place = section.has("file") ? section.place("file") : table.place;

@@ -13,28 +13,6 @@
 
 namespace boltzmann {
 
-std::optional<std::vector<std::size_t>> read_cells(Item const& item, char const* key, Reading& reading) {
-  std::vector<std::size_t> cells;
-  if (!item.is(Item::Kind::array)) {
-    auto const n = read_integer(item, key, 1, 1'000'000'000, reading.context);
-    if (!n) return std::nullopt;
-    cells.assign(static_cast<std::size_t>(std::max(reading.dimension, 1)), static_cast<std::size_t>(*n));
-    return cells;
-  }
-  if (reading.dimension > 0 && item.elements.size() != static_cast<std::size_t>(reading.dimension)) {
-    reading.mistake(item.place, fmt::format("{}: {} number{} for {} ax{}; give one for all, or one for each", key,
-                                            item.elements.size(), item.elements.size() == 1 ? "" : "s",
-                                            reading.dimension, reading.dimension == 1 ? "is" : "es"));
-    return std::nullopt;
-  }
-  for (auto const& element : item.elements) {
-    auto const n = read_integer(element, key, 1, 1'000'000'000, reading.context);
-    if (!n) return std::nullopt;
-    cells.push_back(static_cast<std::size_t>(*n));
-  }
-  return cells;
-}
-
 namespace {
 
 FieldBoundary read_end(Item const& item, Reading& reading) {
@@ -80,12 +58,10 @@ void read_boundary(Item const& item, MeshScheme& mesh, Reading& reading) {
 
 void read_plain_mesh(Section& section, MeshOptions const& options, LaplaceLaw const& law, Reading& reading) {
   std::size_t const before = reading.context.mistakes.count();
-  Item const* item = section.need("cells", "cells = 64");
-  auto const cells = item ? read_cells(*item, "cells", reading) : std::nullopt;
-  Item const* boundary = section.find("boundary");
-  if (!cells) return;
-  catch_errors(reading, item->place, [&] {
-    auto mesh = std::make_unique<MeshScheme>(*reading.box, *cells, law);
+  Item const *cells = section.need("cells", "cells = 64"), *boundary = section.find("boundary");
+  if (options.cells.empty()) return;
+  catch_errors(reading, cells->place, [&] {
+    auto mesh = std::make_unique<MeshScheme>(*reading.box, options.cells, law);
     mesh->assignment(options.assignment);
     mesh->form(options.poisson);
     mesh->precision(options.precision);
@@ -108,7 +84,7 @@ void read_mesh(Item const& table, Reading& reading) {
     for (char const* key : {"cells", "assignment", "poisson", "precision", "boundary"})
       section.refuse(key, "with 'accuracy' it is chosen by the scheme; leave it out");
     reading.mesh.bonded_place = section.place("bonded_factors");
-    reading.mesh.bonded_factors = read_bonded_factors(section, reading);
+    reading.mesh.bonded_factors = options.bonded_factors;
     section.finish();
     if (law && options.accuracy && reading.box)
       catch_errors(reading, section.place("accuracy"), [&] {

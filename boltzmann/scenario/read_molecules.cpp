@@ -1,6 +1,7 @@
 // Reads molecules: which particles are bonded, and tuples of them.
 #include <boltzmann/core/input_file.hpp>
 #include <boltzmann/dissipation/rigid_motion.hpp>
+#include <boltzmann/scenario/read_options.hpp>
 #include <boltzmann/scenario/reading.hpp>
 #include <boltzmann/scenario/tables.hpp>
 
@@ -99,8 +100,6 @@ bool means_bonds(Item const& item, char const* key, ReadEnsemble const* of, Read
 }  // namespace
 
 void read_bonds(Section& section, AnyEnsemble const* particles, ReadMolecules& molecules, Reading& reading) {
-  if (auto const length = section.integer("molecule", 1, 4'000'000'000))
-    molecules.length = static_cast<std::size_t>(*length);
   if (particles && molecules.length > 0 && particles->size() % molecules.length != 0)
     reading.mistake(section.place("molecule"), fmt::format("molecule: {} particles are no whole number of molecules of "
                                                            "{}",
@@ -117,21 +116,6 @@ void read_bonds(Section& section, AnyEnsemble const* particles, ReadMolecules& m
   molecules.bonds =
       read_tuples<2>(*item, "bonds", particles, molecules, "\"chain\", [[0, 1], [0, 2]] or a file", reading);
   catch_errors(reading, item->place, [&] { connections_of(molecules.bonds); });
-}
-
-std::vector<double> read_bonded_factors(Section& section, Reading& reading) {
-  Item const* item = section.find("bonded_factors");
-  if (!item) return {};
-  if (!item->is(Item::Kind::array)) {
-    reading.mistake(item->place,
-                    fmt::format("bonded_factors: a list of numbers is needed, [0, 0, 0.5], not {}", describe(*item)));
-    return {};
-  }
-  std::vector<double> factors;
-  for (auto const& element : item->elements)
-    if (auto const factor = read_quantity(element, "bonded_factors", dimensions::none, reading.context))
-      factors.push_back(*factor);
-  return factors;
 }
 
 bool connects_bonds(Item const& item, ReadEnsemble const* of, Reading& reading) {
@@ -162,12 +146,10 @@ namespace {
 void read_rigid(Item const& table, Reading& reading) {
   std::size_t const before = reading.context.mistakes.count();
   Section section(table, "[[rigid_bonds]]", reading.context);
-  section.explain_said(rigid_bond_options());
-  Item const* on = section.need("on", "on = \"water\"");
+  RigidBondOptions options;
+  read_options(section, rigid_bond_options(), &options, {.dimension = reading.dimension});
+  Item const *on = section.find("on"), *pairs = section.find("pairs");
   ReadEnsemble* of = on ? reading.ensemble(*on, "on") : nullptr;
-  auto const length = section.need_quantity("length", dimensions::length, "length = \"1 angstrom\"", positive);
-  double const tolerance = section.quantity("tolerance", dimensions::none, {1e-14, 0.1}).value_or(1e-10);
-  Item const* pairs = section.find("pairs");
   std::vector<BondMembers> bonds;
   if (pairs && !pairs->is(Item::Kind::text))
     bonds = read_tuples<2>(*pairs, "pairs", of ? of->particles : nullptr, of ? of->molecules : ReadMolecules{},
@@ -183,9 +165,9 @@ void read_rigid(Item const& table, Reading& reading) {
   catch_errors(reading, section.place(), [&] {
     auto rigid = std::find_if(reading.rigid.begin(), reading.rigid.end(),
                               [&](auto const& one) { return &one->ensemble() == of->particles; });
-    if (rigid != reading.rigid.end()) return (*rigid)->add(bonds, *length);
+    if (rigid != reading.rigid.end()) return (*rigid)->add(bonds, options.length);
     MoleculeScheme& scheme = molecule_scheme(reading);
-    auto made = std::make_shared<RigidBonds>(*of->particles, scheme.box(), bonds, *length, tolerance);
+    auto made = std::make_shared<RigidBonds>(*of->particles, scheme.box(), bonds, options.length, options.tolerance);
     if (of->integrator) of->integrator = with_rigid_bonds(made, std::move(of->integrator));
     scheme.keeps(made);
     reading.rigid.push_back(std::move(made));

@@ -52,15 +52,13 @@ void read_multipole(Item const& table, Reading& reading) {
   auto const law = vortices ? std::nullopt : read_field_law(section, multipole_options(), reading, vortex_laws());
   MultipoleOptions options;
   read_options(section, keys_but_of_the_law(multipole_options()), &options, {.dimension = reading.dimension});
-  Item const* grid = section.find("grid");
-  auto const cells = grid ? read_cells(*grid, "grid", reading) : std::nullopt;
   Place const place_of_background = section.has("background") ? section.place("background") : table.place;
   section.finish();
   if (!(law || vortices) || !reading.box || reading.context.mistakes.count() != before) return;
   catch_errors(reading, table.place, [&] {
     auto scheme = vortices ? std::make_unique<MultipoleScheme>(*reading.box, *vortices, options.tolerance)
                            : std::make_unique<MultipoleScheme>(*reading.box, *law, options.tolerance);
-    if (cells) scheme->grid(*cells);
+    if (!options.grid.empty()) scheme->grid(options.grid);
     catch_errors(reading, place_of_background, [&] { scheme->background(options.background); });
     if (options.every > 1) reading.slow.emplace_back(scheme.get(), options.every);
     reading.result->schemes.push_back(std::move(scheme));

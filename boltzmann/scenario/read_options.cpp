@@ -42,9 +42,14 @@ class OptionReader {
   void operator()(std::monostate) const { section_.allow(option_.key); }
   void operator()(std::string* text) const {
     using Form = OptionKind::Form;
-    auto const read = kind_.form == Form::word   ? section_.word(option_.key, kind_.words)
-                      : kind_.form == Form::axis ? section_.word(option_.key, axis_names(meaning_.dimension))
-                                                 : section_.text(option_.key);
+    Item const* item = section_.find(option_.key);
+    if (!item) return;
+    auto& context = section_.context();
+    auto const read = kind_.form == Form::word ? read_word(*item, option_.key, kind_.words, context)
+                      : kind_.form == Form::axis
+                          ? read_word(*item, option_.key, axis_names(meaning_.dimension), context)
+                      : kind_.form == Form::path ? read_path(*item, option_.key, context)
+                                                 : read_text(*item, option_.key, context);
     if (read) *text = *read;
   }
   void operator()(NamedValue const& value) const {
@@ -65,6 +70,29 @@ class OptionReader {
       vector->emplace();
       std::copy(read->begin(), read->end(), (*vector)->begin());
     }
+  }
+  void operator()(std::span<double> components) const {
+    auto const dimension = static_cast<std::size_t>(meaning_.dimension);
+    if (dimension == 0 || dimension > components.size()) return section_.allow(option_.key);
+    if (auto const read = section_.vector(option_.key, meaning_.dimension, dimension_))
+      std::copy(read->begin(), read->end(), components.begin());
+  }
+  void operator()(std::vector<std::size_t>* by_axis) const {
+    Item const* item = section_.find(option_.key);
+    if (!item) return;
+    bool const list = item->is(Item::Kind::array);
+    auto const axes = static_cast<std::size_t>(meaning_.dimension);
+    if (list && axes > 0 && item->elements.size() != axes)
+      return mistake(*item,
+                     fmt::format("{} number{} for {} ax{}; give one for all, or one for each", item->elements.size(),
+                                 item->elements.size() == 1 ? "" : "s", axes, axes == 1 ? "is" : "es"));
+    std::vector<Item> const one{*item};
+    std::vector<std::size_t> all;
+    for (Item const& element : list ? item->elements : one)
+      if (auto const read = read_integer(element, option_.key, low(), high(), section_.context()))
+        all.push_back(static_cast<std::size_t>(*read));
+    if (all.size() != (list ? item->elements.size() : 1)) return;
+    *by_axis = list ? all : std::vector<std::size_t>(std::max<std::size_t>(axes, 1), all.front());
   }
   void operator()(std::vector<std::uint32_t>*) const { section_.allow(option_.key); }
   void operator()(std::vector<std::string>* list) const {
@@ -132,7 +160,7 @@ class OptionReader {
   }
   void numbers(Item const& item, std::vector<double>& list) const {
     if (!item.is(Item::Kind::array))
-      return mistake(item, fmt::format("a list is needed, [1, 2], not {}", describe(item)));
+      return mistake(item, fmt::format("a list of numbers is needed, [1, 2], not {}", describe(item)));
     list.clear();
     for (auto const& element : item.elements)
       if (auto const read = read_quantity(element, option_.key, dimension_, section_.context())) list.push_back(*read);

@@ -49,17 +49,6 @@ std::vector<Column> columns_of(ScenarioSimulation const& scenario) {
   return columns;
 }
 
-/// A name or an array of names.
-void read_ensemble_names(Section& section, std::string const& key, std::vector<std::string>& names, Reading& reading) {
-  Item const* item = section.find(key);
-  if (!item) return;
-  auto const texts = read_texts(*item, key, reading.context);
-  bool const array = item->is(Item::Kind::array);
-  if (texts.size() != (array ? item->elements.size() : 1)) return;
-  for (std::size_t k = 0; k < texts.size(); ++k)
-    if (auto const* named = reading.ensemble(array ? item->elements[k] : *item, key)) names.push_back(named->name);
-}
-
 /// The one ensemble that is named, or that there is.
 ReadEnsemble const* one_ensemble(DiagnosisParameters const& parameters, Reading const& reading) {
   for (auto const& ensemble : reading.ensembles)
@@ -131,7 +120,8 @@ DiagnosisParameters read_parameters_of(DiagnosisKind const& kind, Section& secti
   read_options(section, kind.options, &parameters,
                {reading.dimension, shown, [&](Option const& option, OptionPlace const& place) {
                   if (option.kind.form == OptionKind::Form::ensembles)
-                    read_ensemble_names(section, option.key, *std::get<std::vector<std::string>*>(place), reading);
+                    for (auto const& one : named_ensembles(section.find(option.key), option.key, reading))
+                      std::get<std::vector<std::string>*>(place)->push_back(one.ensemble->name);
                   else if (option.key == "partners")
                     read_partners(section, parameters, reading);
                   else

@@ -11,28 +11,17 @@
 namespace boltzmann {
 namespace {
 
-std::optional<Rezoning::Block> read_block(Section& section, Reading& reading) {
-  Item const *low = section.find("low"), *high = section.find("high");
-  if (!low && !high) return std::nullopt;
-  if (!low || !high) {
-    reading.mistake((low ? low : high)->place,
-                    fmt::format("{}: a region needs both 'low' and 'high', the corners of a block; leave both out for "
-                                "everywhere",
-                                low ? "low" : "high"));
-    return std::nullopt;
+std::optional<Rezoning::Block> block_of(RezoneOptions const& options, Section& section, int dimension) {
+  auto const &low = options.low, &high = options.high;
+  if (section.has("low") != section.has("high")) {
+    char const* const key = section.has("low") ? "low" : "high";
+    section.mistake(key, "a region needs both 'low' and 'high', the corners of a block; leave both out for everywhere");
   }
-  if (reading.dimension == 0) return std::nullopt;
-  auto const from = read_vector(*low, "low", reading.dimension, dimensions::length, reading.context);
-  auto const to = read_vector(*high, "high", reading.dimension, dimensions::length, reading.context);
-  if (!from || !to) return std::nullopt;
-  Rezoning::Block block{};
-  std::copy(from->begin(), from->end(), block.low.begin());
-  std::copy(to->begin(), to->end(), block.high.begin());
-  for (int a = 0; a < reading.dimension; ++a)
-    if (!(block.low[a] < block.high[a]))
-      reading.mistake(high->place, fmt::format("high: on axis {} it is {}, not above low = {}", "xyz"[a], block.high[a],
-                                               block.low[a]));
-  return block;
+  if (!low || !high) return std::nullopt;
+  for (std::size_t a = 0; a < static_cast<std::size_t>(dimension); ++a)
+    if (!((*low)[a] < (*high)[a]))
+      section.mistake("high", fmt::format("on axis {} it is {}, not above low = {}", "xyz"[a], (*high)[a], (*low)[a]));
+  return Rezoning::Block{*low, *high};
 }
 
 void read_one(Item const& table, Reading& reading) {
@@ -55,7 +44,7 @@ void read_one(Item const& table, Reading& reading) {
     reading.mistake(table.place,
                     "rezone needs 'split_above' or 'merge_below', or both; add e.g. split_above = 2, smallest_mass = "
                     "0.5");
-  policy.region = read_block(section, reading);
+  policy.region = block_of(options, section, reading.dimension);
   section.finish();
   if (reading.context.mistakes.count() == before) catch_errors(reading, table.place, [&] { policy.check(); });
   reading.smooth.rezones.push_back(std::move(rezone));
@@ -84,16 +73,12 @@ void read_rezone(Section& smooth, Reading& reading) {
 
 void load_rezone(Reading& reading) {
   for (auto& rezone : reading.smooth.rezones) {
-    std::vector<ReadEnsemble*> on;
-    if (rezone.on && rezone.on->is(Item::Kind::array))
-      for (Item const& word : rezone.on->elements) on.push_back(reading.ensemble(word, "on"));
-    else if (rezone.on)
-      on.push_back(reading.ensemble(*rezone.on, "on"));
-    else
-      for (auto& ensemble : reading.ensembles)
-        if (ensemble.smooth()) on.push_back(&ensemble);
-    for (auto const* ensemble : on) {
-      if (!ensemble || !ensemble->particles) continue;
+    auto on = named_ensembles(rezone.on, "on", reading);
+    for (auto& ensemble : reading.ensembles)
+      if (!rezone.on && ensemble.smooth()) on.push_back({&ensemble, ensemble.place});
+    for (auto const& one : on) {
+      ReadEnsemble const* const ensemble = one.ensemble;
+      if (!ensemble->particles) continue;
       if (!ensemble->smooth())
         reading.mistake(rezone.on->place, fmt::format("rezone: '{}' is of class {}; smooth particles are rezoned",
                                                       ensemble->name, ensemble->kind->name));

@@ -39,19 +39,41 @@ OptionTable keys_but_of_the_law(OptionTable const& all) {
   return all.only(keys);
 }
 
-std::vector<ReadEnsemble*> named_ensembles(Section& section, char const* key, Reading& reading) {
-  std::vector<ReadEnsemble*> named;
-  Item const* item = section.find(key);
+std::vector<NamedEnsemble> named_ensembles(Item const* item, std::string_view key, Reading& reading) {
+  std::vector<NamedEnsemble> named;
   if (!item) return named;
-  if (!item->is(Item::Kind::array)) return {reading.ensemble(*item, key)};
-  if (item->elements.empty())
+  bool const list = item->is(Item::Kind::array);
+  if (list && item->elements.empty())
     reading.mistake(item->place, fmt::format("{}: no ensemble; name one or more, or leave it out", key));
-  for (auto const& word : item->elements) {
-    named.push_back(reading.ensemble(word, key));
-    if (named.back() && std::find(named.begin(), named.end() - 1, named.back()) != named.end() - 1)
-      reading.mistake(word.place, fmt::format("{}: '{}' twice", key, named.back()->name));
+  std::vector<Item> const one{*item};
+  for (Item const& word : list ? item->elements : one) {
+    ReadEnsemble* const ensemble = reading.ensemble(word, key);
+    if (!ensemble) continue;
+    if (std::any_of(named.begin(), named.end(), [&](NamedEnsemble const& other) { return other.ensemble == ensemble; }))
+      reading.mistake(word.place, fmt::format("{}: '{}' twice", key, ensemble->name));
+    named.push_back({ensemble, word.place});
   }
   return named;
+}
+
+void refuse_twice(Item const& second, std::string_view key, Reading& reading) {
+  reading.mistake(second.place,
+                  fmt::format("{0}: '{1}' twice; within one ensemble write on = \"{1}\"", key, second.text));
+}
+
+std::pair<ReadEnsemble*, ReadEnsemble*> two_ensembles(Item const& between, Reading& reading) {
+  bool const list = between.is(Item::Kind::array);
+  if (!list || between.elements.size() != 2) {
+    reading.mistake(between.place,
+                    fmt::format("between: the names of two ensembles are needed, [\"a\", \"b\"], not {}{}",
+                                describe(between), list ? fmt::format(" of {}", between.elements.size()) : ""));
+    return {};
+  }
+  ReadEnsemble *const a = reading.ensemble(between.elements[0], "between"), *const b = reading.ensemble(
+                                                                                between.elements[1], "between");
+  if (!a || a != b) return {a, b};
+  refuse_twice(between.elements[1], "between", reading);
+  return {};
 }
 
 namespace {
@@ -104,14 +126,18 @@ bool add_sources(Item const& table, char const* heading, std::optional<LaplaceLa
     reading.mistake(place, fmt::format("{}: '{}' is of class {}, {}", key, ensemble.name, ensemble.kind->name, lack));
     return false;
   };
-  std::vector<ReadEnsemble*> const tests =
-      test ? named_ensembles(section, "test_particles", reading) : std::vector<ReadEnsemble*>{};
-  std::vector<ReadEnsemble*> on = named_ensembles(section, "on", reading);
+  auto const named = [&](char const* key) {
+    std::vector<ReadEnsemble*> all;
+    for (auto const& one : named_ensembles(section.find(key), key, reading)) all.push_back(one.ensemble);
+    return all;
+  };
+  std::vector<ReadEnsemble*> const tests = test ? named("test_particles") : std::vector<ReadEnsemble*>{};
+  std::vector<ReadEnsemble*> on = named("on");
   if (!section.has("on"))
     for (auto& ensemble : reading.ensembles) on.push_back(&ensemble);
   for (auto const& all : {on, tests})
     for (auto const* ensemble : all)
-      if (!ensemble || !ensemble->particles || !ensemble->kind) return false;
+      if (!ensemble->particles || !ensemble->kind) return false;
   if (!section.has("on"))  // those that are made for it, but for test particles
     std::erase_if(on, [&](ReadEnsemble const* ensemble) {
       SourceKind const kind = kind_of(*ensemble);
@@ -121,7 +147,7 @@ bool add_sources(Item const& table, char const* heading, std::optional<LaplaceLa
     if (!give(*ensemble, "on", add)) return false;
   for (auto* ensemble : tests)
     if (!give(*ensemble, "test_particles", test)) return false;
-  if (on.empty() && !reading.ensembles.empty() && reading.context.mistakes.count() == before)
+  if (on.empty() && !section.has("on") && !reading.ensembles.empty() && reading.context.mistakes.count() == before)
     reading.mistake(table.place, fmt::format("{}: {}", heading, fitting.nobody()));
   return reading.context.mistakes.count() == before;
 }

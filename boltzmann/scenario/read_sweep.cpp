@@ -2,6 +2,7 @@
 // scenario of one run of it.
 #include <boltzmann/core/quantity_text.hpp>
 #include <boltzmann/pictures/figure.hpp>
+#include <boltzmann/scenario/read_options.hpp>
 #include <boltzmann/scenario/reading.hpp>
 #include <boltzmann/scenario/sweep_values.hpp>
 
@@ -210,20 +211,17 @@ std::string read_right(Section& section, SweepPlan const& plan, Reading& reading
 void read_sweep_picture(Item const& table, SweepPlan& plan, Reading& reading) {
   Section section(table, "[[sweep.pictures]]", reading.context);
   SweepPicture picture;
-  auto const drawing = section.word("drawing", {"points", "time-series"});
-  if (section.has("drawing") && !drawing) return;
-  picture.time_series = drawing == "time-series";
-  if (picture.time_series)
-    section.mark_used("x"), section.mark_used("fit");
-  else
-    picture.x = read_right(section, plan, reading);
+  SweepPictureOptions options;
+  read_options(section, sweep_picture_options(), &options, {});
+  if (section.has("drawing") && section.item("drawing")->text != options.drawing) return;
+  picture.time_series = options.drawing == "time-series";
   for (char const* key : {"x", "fit"})
-    if (picture.time_series && section.has(key))
-      reading.mistake(section.place(key), fmt::format("{}: a time series has none; leave it out", key));
-  if (Item const* y = section.need("y", "y = \"temperature\"")) picture.y = read_columns(*y, "y", plan, reading);
-  if (!picture.time_series) picture.line = section.word("fit", {"line"}).has_value();
-  picture.logarithmic = section.boolean("logarithmic");
-  picture.file = section.text("file").value_or(picture.time_series ? "series.png" : "sweep.png");
+    if (picture.time_series) section.refuse(key, "a time series has none; leave it out");
+  if (!picture.time_series) picture.x = read_right(section, plan, reading);
+  if (Item const* y = section.item("y")) picture.y = read_columns(*y, "y", plan, reading);
+  picture.line = !options.fit.empty();
+  picture.logarithmic = options.logarithmic;
+  picture.file = section.has("file") ? options.file : picture.time_series ? "series.png" : "sweep.png";
   Place const place = section.place("file");
   if (!ends_as_picture(picture.file))
     reading.mistake(place, fmt::format("file: '{}' ends in none of .png, .svg, .pdf", picture.file));

@@ -13,12 +13,12 @@
 #include <boltzmann/scenario/materials.hpp>
 #include <boltzmann/scenario/scenario.hpp>
 #include <boltzmann/scenario/section.hpp>
+#include <boltzmann/scenario/tables.hpp>
 #include <boltzmann/schemes/molecules/molecule_scheme.hpp>
 #include <boltzmann/schemes/pair/pair_scheme.hpp>
 #include <boltzmann/schemes/panels/panel_scheme.hpp>
 #include <boltzmann/schemes/smooth/rezone.hpp>
 #include <boltzmann/schemes/smooth/smooth_scheme.hpp>
-#include <boltzmann/simulation/barostat.hpp>
 #include <boltzmann/simulation/dye.hpp>
 #include <boltzmann/simulation/vortex_relaxation.hpp>
 
@@ -72,17 +72,11 @@ struct ReadEnsemble {
   bool smooth() const { return kind && kind->matter != Matter::none; }
 };
 
-struct ReadRun {
-  std::optional<double> step, cutoff, skin, tolerance;
-  std::optional<SubstepOptions> substeps;
+struct ReadRun : RunOptions {
+  std::optional<double> step;
   std::optional<double> courant;  ///< instead of the step: which part of the Courant step
-  std::optional<double> time;     ///< instead of the number of steps
-  std::int64_t steps = 0;
-  std::uint64_t seed = 1;
-  int threads = 0;
-  bool cutoff_known = true;  ///< false: there is one, but it could not be read
-  bool shifted = true;
-  std::optional<Item> stop;  ///< the condition that ends the run, once the diagnoses are known
+  bool cutoff_known = true;       ///< false: there is one, but it could not be read
+  std::optional<Item> stop;       ///< the condition that ends the run, once the diagnoses are known
   Place place, cutoff_place, skin_place, step_place, time_place, tolerance_place, substeps_place;
 };
 
@@ -244,8 +238,6 @@ void settle_run(Item& resolved, Reading& reading);
 /// Makes the schemes that the file has tables of.
 void read_schemes(Section& document, Reading& reading);
 void read_mesh(Item const& table, Reading& reading);
-/// A number of cells for each axis, from one for all or a list.
-std::optional<std::vector<std::size_t>> read_cells(Item const& item, char const* key, Reading& reading);
 void read_multipole(Item const& table, Reading& reading);
 void read_cylinder(Item const& table, Reading& reading);
 void read_smooth(Item const& table, Reading& reading);
@@ -279,8 +271,16 @@ void read_embedded_atoms(Item const& table, Reading& reading);
 void add_to_embedded_atoms(Item const& table, Reading& reading);
 void read_stillinger_weber(Item const& table, Reading& reading);
 void add_to_stillinger_weber(Item const& table, Reading& reading);
-/// The ensembles that a key names, one or a list. Null where one could not be read.
-std::vector<ReadEnsemble*> named_ensembles(Section& section, char const* key, Reading& reading);
+struct NamedEnsemble {
+  ReadEnsemble* ensemble;
+  Place place;  ///< of its name
+};
+/// The ensembles that the value of a key names, one or a list (null: none); a mistake where one is none, or named twice.
+std::vector<NamedEnsemble> named_ensembles(Item const* item, std::string_view key, Reading& reading);
+/// The two that `between` names; null where one could not be read, both if they are not two.
+std::pair<ReadEnsemble*, ReadEnsemble*> two_ensembles(Item const& between, Reading& reading);
+/// An ensemble that acts on itself, named twice.
+void refuse_twice(Item const& second, std::string_view key, Reading& reading);
 /// Gives a scheme of a field with this constant the ensembles that are named by `on`, or all that fit; and those that
 /// `test_particles` names to `test`, if there is such a key. False: something is wrong with those that are there.
 using AddToField = std::function<void(AnyEnsemble&, SourceKind const&)>;
@@ -306,12 +306,10 @@ void read_bodies(Section& document, Reading& reading);
 void load_bodies(Reading& reading);
 void add_bodies(Reading& reading);
 void keep_out_of_bodies(Reading const& reading);
-/// Reads `molecule` and `bonds` of [[ensembles]]; without particles only the form is checked.
+/// Reads `bonds` of [[ensembles]], of molecules of a length; without particles only the form is checked.
 void read_bonds(Section& section, AnyEnsemble const* particles, ReadMolecules& molecules, Reading& reading);
 /// Whether connect = "bonds": a mistake if there are none.
 bool connects_bonds(Item const& item, ReadEnsemble const* of, Reading& reading);
-/// `bonded_factors` of a table: one for each number of bonds, nothing if there is no such key or it is wrong.
-std::vector<double> read_bonded_factors(Section& section, Reading& reading);
 /// Of an influence on this ensemble (it may be null): "bonds", a list, or a file.
 std::vector<AngleMembers> read_angles(Item const& item, ReadEnsemble const* of, Reading& reading);
 std::vector<DihedralMembers> read_dihedrals(Item const& item, ReadEnsemble const* of, Reading& reading);

@@ -220,7 +220,7 @@ void Recorder::key(Item const& table, ToldKey const& key, UnitSystem const& unit
   } else if (kind.form == word) {
     parameter.kind = "word";
     parameter.words = kind.words;
-  } else if (kind.form == OptionKind::Form::text || kind.form == name) {
+  } else if (kind.form == OptionKind::Form::text || kind.form == name || kind.form == OptionKind::Form::path) {
     parameter.kind = "text";
   } else if (kind.form == whole) {
     parameter.kind = "integer";

@@ -81,6 +81,7 @@ Members shape(Option const& option, void* plain = nullptr) {
     case number:
       return limits({{"type", list({"number", "string"})}});
     case wholes:
+    case wholes_by_axis:
       return {{"type", list({"integer", "array"})}};
     case numbers:
     case vector:
@@ -88,6 +89,7 @@ Members shape(Option const& option, void* plain = nullptr) {
     case count_or_numbers:
       return {{"type", list({"integer", "array"})}};
     case text:
+    case path:
     case name:
       return {{"type", quoted_text("string")}};
     case word:
@@ -278,6 +280,8 @@ std::string influences() {
     }
   }
   replace(properties, "law", words(names, docs));
+  for (char const* key : {"cutoff", "switch_from"})  // with `among` tables by names, too
+    parameters[key] = documented(*influence_options().find(key));
   for (auto const& [name, doc] : parameters) replace(properties, name, something(doc));
   return tables(table(properties, true));
 }

@@ -247,9 +247,10 @@ Item const* find_table(Section& document, std::string_view key) {
   return nullptr;
 }
 
-std::vector<Item const*> find_tables(Section& section, std::string_view key) {
+std::vector<Item const*> find_tables(Section& section, std::string_view key, bool one_will_do) {
   Item const* item = section.find(key);
   if (!item) return {};
+  if (one_will_do && item->is(Item::Kind::table)) return {item};
   std::vector<Item const*> tables;
   bool good = item->is(Item::Kind::array);
   if (good)

@@ -133,7 +133,8 @@ class Section {
 
 /// A table under `key` of the document: nullptr (and a mistake) if it is something else, nullptr if it is missing.
 Item const* find_table(Section& document, std::string_view key);
-/// The tables of [[key]]; a mistake if it is something else. An empty list if it is missing.
-std::vector<Item const*> find_tables(Section& section, std::string_view key);
+/// The tables of [[key]], or where one alone will do, [key]; a mistake if it is something else. An empty list if it is
+/// missing.
+std::vector<Item const*> find_tables(Section& section, std::string_view key, bool one_will_do = false);
 
 }  // namespace boltzmann

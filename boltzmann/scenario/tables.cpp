@@ -1,6 +1,7 @@
 // What the tables of a scenario say, but those whose room has its own.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/once.hpp>
+#include <boltzmann/diagnoses/bond_harmonics.hpp>
 #include <boltzmann/dissipation/dissipation_options.hpp>
 #include <boltzmann/integrators/integrator.hpp>
 #include <boltzmann/pictures/colour.hpp>
@@ -36,34 +37,32 @@ OptionTable const& substep_options() {
 }
 
 OptionTable make_run_options() {
+  using R = RunOptions;
+  constexpr double unlimited = std::numeric_limits<double>::infinity();
   OptionTable all;
   all.add_said("step", "a time; with `[smooth]` also `\"courant\"`, or `{ courant = 0.5 }`",
                "of each step; that part of the Courant step of the state at the start");
-  all.add_said("steps", "a whole number, 0 or more", "how many", "or `time`");
-  all.add_said("time", "a time, zero or more", "how long: as many steps as it takes", "or `steps`");
-  all.add("seed", &RunOptions::seed, whole(0, std::numeric_limits<double>::infinity()),
-          "of all random numbers: the same seed gives the same bits");
-  all.add("threads", &RunOptions::threads, whole(0, 4096), "0: all cores; the result has the same bits for any number");
-  all.add("cutoff", &RunOptions::cutoff, number(dimensions::length, positive),
+  all.add("steps", &R::steps, whole(0, unlimited), "how many", "or `time`");
+  all.add("time", &R::time, number(dimensions::time, not_negative), "how long: as many steps as it takes",
+          "or `steps`");
+  all.add("seed", &R::seed, whole(0, unlimited), "of all random numbers: the same seed gives the same bits");
+  all.add("threads", &R::threads, whole(0, 4096), "0: all cores; the result has the same bits for any number");
+  all.add("cutoff", &R::cutoff, number(dimensions::length, positive),
           "distance beyond which pair laws are zero; periodic axes need one. Energies of pairs are shifted, so that "
           "they are zero there and a run conserves energy; forces stay as they are",
           "all pairs count");
-  all.add("shifted", &RunOptions::shifted, flag(),
+  all.add("shifted", &R::shifted, flag(),
           "energies of pairs are counted from the cut-off; `false`: as the law has them, as papers do that cut it and "
           "add its [tail](#energies-as-papers-have-them)");
-  all.add("skin", &RunOptions::skin, number(dimensions::length, not_negative),
+  all.add("skin", &R::skin, number(dimensions::length, not_negative),
           "by how much neighbour lists reach further than the cut-off, at most 4 cut-offs; it changes the speed, not "
           "the result",
           "chosen for you");
-  all.add("tolerance", &RunOptions::tolerance, number(dimensions::none, {1e-14, 0.01}),
+  all.add("tolerance", &R::tolerance, number(dimensions::none, {1e-14, 0.01}),
           "of `gauss-radau`: how large the last term of its series may be in each of its steps, in parts of the first",
           "1e-9, as exact as doubles are");
-  all.add_of<RunOptions>(
-      "substeps",
-      [](RunOptions& run) -> OptionPlace {
-        return OptionGroup{&substep_options(), [&run]() -> void* { return &run.substeps.emplace(); }};
-      },
-      group("{ distance = 0.01 }"),
+  all.add(
+      "substeps", &R::substeps, substep_options(), "{ distance = 0.01 }",
       "of `leap-frog` and `symplectic-4`: each step is divided into so many equal parts, 2^n of them, that in a "
       "substep "
       "no particle moves further than `distance`, no force does more work on it than `energy`, and that it is the part "
@@ -75,21 +74,22 @@ OptionTable make_run_options() {
 }
 
 OptionTable make_units_options() {
+  using U = UnitsOptions;
   OptionTable all;
-  all.add_said("base",
-               "`\"si\"`, `\"cgs\"`, `\"reduced\"`, `\"lennard-jones\"`, `\"gravitational\"`, `\"plasma\"` or "
-               "`\"custom\"`",
-               "what plain numbers mean, and the units of the results; reduced: pure numbers, no text may have a unit",
-               "`\"si\"`");
-  all.add_said("sigma", "a length", "lennard-jones: sigma, epsilon, mass and Boltzmann's constant are 1");
-  all.add_said("epsilon", "an energy", "lennard-jones");
-  all.add_said("mass", "a mass", "lennard-jones, plasma, custom; gravitational: length, mass and G are 1");
-  all.add_said("length", "a length", "gravitational, custom");
-  all.add_said("time", "a time", "custom");
-  all.add_said("density", "a number per volume",
-               "plasma: the plasma frequency, the Debye length and the thermal velocity are 1");
-  all.add_said("charge", "a charge", "plasma, custom", "of custom the elementary charge");
-  all.add_said("temperature", "a temperature", "plasma, custom", "of custom 1 K");
+  all.add("base", &U::base, word({"si", "cgs", "reduced", "lennard-jones", "gravitational", "plasma", "custom"}),
+          "what plain numbers mean, and the units of the results; reduced: pure numbers, no text may have a unit",
+          "`\"si\"`");
+  all.add("sigma", &U::sigma, number(dimensions::length),
+          "lennard-jones: sigma, epsilon, mass and Boltzmann's constant are 1");
+  all.add("epsilon", &U::epsilon, number(dimensions::energy), "lennard-jones");
+  all.add("mass", &U::mass, number(dimensions::mass),
+          "lennard-jones, plasma, custom; gravitational: length, mass and G are 1");
+  all.add("length", &U::length, number(dimensions::length), "gravitational, custom");
+  all.add("time", &U::time, number(dimensions::time), "custom");
+  all.add("density", &U::density, number(dimensions::number_density),
+          "plasma: the plasma frequency, the Debye length and the thermal velocity are 1");
+  all.add("charge", &U::charge, number(dimensions::charge), "plasma, custom", "of custom the elementary charge");
+  all.add("temperature", &U::temperature, number(dimensions::temperature), "plasma, custom", "of custom 1 K");
   return all;
 }
 
@@ -113,19 +113,19 @@ OptionTable make_sweep_options() {
 }
 
 OptionTable make_sweep_picture_options() {
+  using P = SweepPictureOptions;
   OptionTable all;
-  all.add_said("drawing", "`\"points\"` or `\"time-series\"`", "a point for each value, or curves over time",
-               "`\"points\"`");
+  all.add("drawing", &P::drawing, word({"points", "time-series"}), "a point for each value, or curves over time");
   all.add_said("x", "a key that varies, or a column of diagnoses",
                "of points; of a key with lists the one component that differs", "the key, if only one varies");
   all.add_said("y", "columns of diagnoses, a list or with commas", "upwards");
-  all.add_said("fit", "`\"line\"`",
-               "of points: the straight line through all runs by least squares, with the errors that their scatter "
-               "about it tells; it is drawn, printed and written to `fits.csv`",
-               "none");
-  all.add_said("logarithmic", "true or false", "y", "`false`");
-  all.add_said("file", "a name that ends in .png, .svg or .pdf", "in the folder of the sweep",
-               "`sweep.png`, `series.png`");
+  all.add("fit", &P::fit, word({"line"}),
+          "of points: the straight line through all runs by least squares, with the errors that their scatter about it "
+          "tells; it is drawn, printed and written to `fits.csv`",
+          "none");
+  all.add("logarithmic", &P::logarithmic, flag(), "y");
+  all.add("file", &P::file, text(), "a name in the folder of the sweep; .png, .svg or .pdf",
+          "`sweep.png`, `series.png`");
   all.at("y").needed = "\"temperature\"";
   return all;
 }
@@ -155,14 +155,9 @@ OptionTable make_box_options() {
   for (auto const& word : boundary_words())
     kinds += (kinds.empty() ? "`\"" : "; `\"") + std::string(word.name) + "\"`: " + std::string(word.doc);
   all.add_said("boundary", "a word, or a list with one for each axis", kinds, "`\"open\"`");
-  all.add_of<BoxOptions>(
-      "shear",
-      [](BoxOptions& box) -> OptionPlace {
-        return OptionGroup{&shear_options(), [&box]() -> void* { return &box.shear.emplace(BoxOptions::Sheared{}); }};
-      },
-      group("{ rate = 0.1 }"),
-      "of two periodic axes: [a flow without walls](#shear), whose images move past each other (Lees and Edwards)",
-      "at rest");
+  all.add("shear", &BoxOptions::shear, shear_options(), "{ rate = 0.1 }",
+          "of two periodic axes: [a flow without walls](#shear), whose images move past each other (Lees and Edwards)",
+          "at rest");
   all.add_said("walls", "tables, `[[box.walls]]`", "of [mirror and reflecting axes](#boxwalls)", "none");
   all.add_said("regions", "tables, `[[box.regions]]`", "[blocks](#boxregions) inside the space with elastic faces",
                "none");
@@ -175,12 +170,13 @@ OptionTable make_ensemble_options() {  // long: a table, a row for each key
   std::string methods;
   for (auto const& word : method_words())
     methods += (methods.empty() ? "`\"" : "; `\"") + std::string(word.name) + "\"`: " + std::string(word.doc);
+  using E = EnsembleOptions;
   OptionTable all;
-  all.add("name", &EnsembleOptions::name, text(), "for the rest of the file, the columns and the legends");
+  all.add("name", &E::name, text(), "for the rest of the file, the columns and the legends");
   all.add_said("class", "a class (`bzm list classes`)", "what each particle is");
-  all.add_of<EnsembleOptions>(
+  all.add_of<E>(
       "integrator",
-      [](EnsembleOptions& of) -> OptionPlace {
+      [](E& of) -> OptionPlace {
         return NamedValue{[&of] { return of.integrator ? method_words().name(*of.integrator) : ""; },
                           [&of](std::string const& name) { of.integrator = method_words().named(name); }};
       },
@@ -188,29 +184,25 @@ OptionTable make_ensemble_options() {  // long: a table, a row for each key
       "`\"leap-frog\"` for classical particles, `\"rk4\"` for those that a flow carries");
   all.add_said("load", "a table, `{ kind = \"block\", ... }`",
                "where the particles are: a [loader](#load) (`bzm list loaders`)");
-  all.add("number", &EnsembleOptions::number, whole(1, std::numeric_limits<double>::infinity()),
+  all.add("number", &E::number, whole(1, std::numeric_limits<double>::infinity()),
           "how many, for loaders that don't know", "what the loader knows");
-  all.add_said("molecule", "a whole number",
-               "particles that make a molecule, one behind the other: numbers of `bonds`, `angles` and `dihedrals` are "
-               "those within one, and hold for all",
-               "the ensemble is one");
+  all.add("molecule", &E::molecule, whole(1, 4e9),
+          "particles that make a molecule, one behind the other: numbers of `bonds`, `angles` and `dihedrals` are "
+          "those within one, and hold for all",
+          "the ensemble is one");
   all.add_said("bonds", "`\"chain\"`, `[[0, 1], [0, 2]]` or `{ file = \"bonds.txt\" }`",
                "which particles of a [molecule](#molecules) are bonded: each to the next one, or the pairs of numbers "
                "in a list, or on the lines of a file",
                "none");
   all.add_said("formulas", "a table of [formulas](#formulas)", "fields that depend on the place", "none");
-  all.add("temperature", &EnsembleOptions::temperature, number(dimensions::temperature, not_negative),
+  all.add("temperature", &E::temperature, number(dimensions::temperature, not_negative),
           "velocities from Maxwell's distribution", "none");
-  all.add("drift", &EnsembleOptions::drift, vector(dimensions::velocity), "a common velocity, added to these", "none");
-  all.add_of<EnsembleOptions>(
-      "remove_drift", [](EnsembleOptions& of) -> OptionPlace { return &of.thermal.remove_drift; }, flag(),
-      "takes the mean off first");
-  all.add_of<EnsembleOptions>(
-      "exact_temperature", [](EnsembleOptions& of) -> OptionPlace { return &of.thermal.exact_temperature; }, flag(),
-      "scales them so that the measured temperature is the wanted one");
-  all.add_of<EnsembleOptions>(
-      "quiet", [](EnsembleOptions& of) -> OptionPlace { return &of.thermal.quiet; }, flag(),
-      "puts them at the quantiles of the distribution, so that noise is far lower than that of random ones");
+  all.add("drift", &E::drift, vector(dimensions::velocity), "a common velocity, added to these", "none");
+  all.add("remove_drift", &E::thermal, &MaxwellianOptions::remove_drift, flag(), "takes the mean off first");
+  all.add("exact_temperature", &E::thermal, &MaxwellianOptions::exact_temperature, flag(),
+          "scales them so that the measured temperature is the wanted one");
+  all.add("quiet", &E::thermal, &MaxwellianOptions::quiet, flag(),
+          "puts them at the quantiles of the distribution, so that noise is far lower than that of random ones");
   all.add_said("velocity_ripple",
                "a table, `{ axis = \"x\", mode = 1, amplitude = \"100 m/s\", phase = 0, component = \"x\" }`",
                "a wave on top of the velocities", "none");
@@ -230,12 +222,10 @@ OptionTable make_ensemble_options() {  // long: a table, a row for each key
                "of `Meso`: each particle draws its own from the equilibrium at that temperature (mean (Cv + k) T for a "
                "constant heat capacity)",
                "0");
-  all.add_of<EnsembleOptions>(
-      "colour", [](EnsembleOptions& of) -> OptionPlace { return &of.appearance.colour; }, text(),
-      "in pictures: " + join(colour_names()) + ", or `\"#rrggbb\"`", "chosen for you");
-  all.add_of<EnsembleOptions>(
-      "diameter", [](EnsembleOptions& of) -> OptionPlace { return &of.appearance.diameter; },
-      number(dimensions::length, not_negative), "in pictures", "0");
+  all.add("colour", &E::appearance, &Appearance::colour, text(),
+          "in pictures: " + join(colour_names()) + ", or `\"#rrggbb\"`", "chosen for you");
+  all.add("diameter", &E::appearance, &Appearance::diameter, number(dimensions::length, not_negative), "in pictures",
+          "0");
   all.add_said("set", "tables, `[[ensembles.set]]`", "other values for [some particles](#ensemblesset)", "none");
   all.at("name").needed = "\"atoms\"";
   all.at("class").needed = "\"Newton\"";
@@ -268,35 +258,38 @@ OptionTable make_class_options() {
 }
 
 OptionTable make_class_field_options() {
+  using F = ClassFieldOptions;
   OptionTable all;
-  all.add_said("name", "a text of letters, digits and _", "in formulas, files, diagnoses and pictures");
-  all.add_said("kind", "`\"scalar\"` or `\"vector\"`", "a number, or as many as the space has axes", "`\"scalar\"`");
-  all.add_said("unit", "a unit, `\"e\"`, `\"1/s\"`", "what it is measured in, which gives its dimension",
-               "a pure number");
+  all.add("name", &F::name, text(), "of letters, digits and _, in formulas, files, diagnoses and pictures");
+  all.add("kind", &F::kind, word({"scalar", "vector"}), "a number, or as many as the space has axes");
+  all.add("unit", &F::unit, text(), "what it is measured in, `\"e\"`, `\"1/s\"`, which gives its dimension",
+          "a pure number");
   all.add_said("default", "a quantity, or a list of them", "of particles of which nothing else is said", "0");
-  all.add_said("sum", "`true` or `false`",
-               "it has no rate, but is what influences with `changes` give to it at each calculation: rates may use it",
-               "false");
+  all.add("sum", &F::sum, flag(),
+          "it has no rate, but is what influences with `changes` give to it at each calculation: rates may use it");
   all.add_said("period", "a quantity, positive",
                "of a field that has a rate: after each step it is taken back to between minus and plus half of it, as "
                "`\"2 pi\"` does with an angle",
                "it grows as it does");
-  all.add_said(
-      "neighbours", "a length, positive",
-      "it is how many particles are nearer than that, found whenever somebody looks: files, pictures, diagnoses "
-      "and events may use it, influences and rates can't",
-      "it is no such number");
-  all.add_said("of", "the name of an ensemble, or a list", "whose particles are neighbours", "all particles");
-  all.add_said("bond_order", "a whole number, 1 to 16",
-               "instead of their number, how far the directions to the neighbours are those of a crystal, as "
-               "`bond-order` has it: Steinhardt's q6 or psi6 for 6",
-               "their number");
-  all.add_said("doc", "a text", "one line about it", "none");
+  all.add("neighbours", &F::neighbours, number(dimensions::length, positive),
+          "it is how many particles are nearer than that, found whenever somebody looks: files, pictures, diagnoses "
+          "and events may use it, influences and rates can't",
+          "it is no such number");
+  all.add("of", &F::of, option::ensembles(), "whose particles are neighbours", "all particles");
+  all.add("bond_order", &F::bond_order, whole(1, BondHarmonics::largest_order),
+          "instead of their number, how far the directions to the neighbours are those of a crystal, as `bond-order` "
+          "has it: Steinhardt's q6 or psi6 for 6",
+          "their number");
+  all.add("doc", &F::doc, text(), "one line about it", "none");
   all.at("name").needed = "\"charge\"";
   return all;
 }
 
 OptionTable make_influence_options() {  // long: a table, a row for each key
+  using I = InfluenceOptions;
+  using AtCutoff = FormulaLaw::AtCutoff;
+  static Words<AtCutoff> const ends{
+      "at_cutoff", {{AtCutoff::cut, "cut", ""}, {AtCutoff::shift, "shift", ""}, {AtCutoff::switched, "switch", ""}}};
   OptionTable all;
   all.add_said("law", "a law (`bzm list laws`)", "its parameters stand beside it");
   all.add_said("on", "the name of an ensemble", "among its particles; for laws from outside: on all of them",
@@ -314,21 +307,21 @@ OptionTable make_influence_options() {  // long: a table, a row for each key
       "with `among`: numbers for two ensembles that such a table does not have are this mean of those of each, "
       "`{ depth = \"geometric\", r0 = \"arithmetic\" }` (Lorentz and Berthelot)",
       "tables have them");
-  all.add_said("cutoff", "a length, positive", "of this law", "that of `[run]`");
-  all.add_said("every", "a whole number, 1 or more",
-               "so many steps from one calculation to the next: a slow law, which then counts as often (r-RESPA); "
-               "energies are right at multiples of it",
-               "in each step");
-  all.add_said("precision", "`\"full\"` or `\"single\"`",
-               "of `biot-savart` and `biot-savart-algebraic`, summed over all pairs: single is right to some 1e-6 and "
-               "twice as fast",
-               "`\"full\"`");
+  all.add("cutoff", &I::cutoff, number(dimensions::length, positive), "of this law", "that of `[run]`");
+  all.add("every", &I::every, whole(1, 1e6),
+          "so many steps from one calculation to the next: a slow law, which then counts as often (r-RESPA); energies "
+          "are right at multiples of it",
+          "in each step");
+  all.add("precision", &I::precision, word({"full", "single"}),
+          "of `biot-savart` and `biot-savart-algebraic`, summed over all pairs: single is right to some 1e-6 and twice "
+          "as fast");
   all.add_said("connect", "`[[first, last, interval]]` or `\"bonds\"`",
                "with `on`: only between fixed pairs, (first, first + interval), (first + interval, first + 2 "
                "interval), ... up to last; or those that are bonded (`bonds` of `[[ensembles]]`)",
                "all pairs");
-  all.add_said("bonded_factors", "a list of numbers, `[0, 0, 0.5]`",
-               "with `on` and a cut-off: of pairs 1, 2, 3, ... bonds apart; 0 leaves them out", "1: as of all others");
+  all.add("bonded_factors", &I::bonded_factors, numbers(dimensions::none),
+          "with `on` and a cut-off: of pairs 1, 2, 3, ... bonds apart, `[0, 0, 0.5]`; 0 leaves them out",
+          "1: as of all others");
   all.add_said("angles", "`\"bonds\"`, `[[0, 1, 2]]` or `{ file = \"angles.txt\" }`",
                "with `on`, of an `energy` in `angle`: on each three particles of a [molecule](#molecules) that two "
                "bonds join, or on those of the list, by the angle at the second",
@@ -348,36 +341,34 @@ OptionTable make_influence_options() {  // long: a table, a row for each key
   all.add_said("energy", "a [formula](#laws-that-are-typed)", "instead of `law`: a typed law, by its energy");
   all.add_said("influence", "a [formula](#laws-that-are-typed)",
                "instead of `law`: a typed law, by the force (or velocity) that p gets");
-  all.add_said(
-      "changes", "a field of those that it acts on",
-      "of a typed law by an influence: it moves nobody, but is added to the rate of that field, which a class of "
-      "[`[[classes]]`](#classes) has",
-      "it moves them");
+  all.add("changes", &I::changes, name_of_quantity(),
+          "of a typed law by an influence: it moves nobody, but is added to the rate of that field of those that it "
+          "acts on, which a class of [`[[classes]]`](#classes) has",
+          "it moves them");
   all.add_said("parameters", "a table of quantities", "of a typed law: `{ depth = \"0.1 eV\" }`", "none");
-  all.add_said(
-      "at_cutoff", "`\"cut\"`, `\"shift\"` or `\"switch\"`",
-      "of a pair law: as it is up to the cut-off; less its value there (an energy less its slope there, too, so "
-      "that the force ends at zero); or times a smooth step from 1 to 0",
-      "`\"cut\"`");
-  all.add_said("switch_from", "a length, positive", "where that step begins", "nine tenths of the cut-off");
-  all.add_said("tail", "`true` or `false`",
-               "energy and pressure have what pairs beyond the cut-off would add, if particles stood there as "
-               "everywhere; with `shifted = false` in `[run]`",
-               "false");
-  all.add_said("from_outside", "`true` or `false`", "a typed law that acts from outside", "false");
+  all.add("at_cutoff", &I::at_cutoff, ends,
+          "of a pair law: as it is up to the cut-off; less its value there (an energy less its slope there, too, so "
+          "that the force ends at zero); or times a smooth step from 1 to 0");
+  all.add("switch_from", &I::switch_from, number(dimensions::length, positive), "where that step begins",
+          "nine tenths of the cut-off");
+  all.add("tail", &I::tail, flag(),
+          "energy and pressure have what pairs beyond the cut-off would add, if particles stood there as everywhere; "
+          "with `shifted = false` in `[run]`");
+  all.add("from_outside", &I::from_outside, flag(), "a typed law that acts from outside");
   all.at("law").needed = "\"lennard-jones\"";
   return all;
 }
 
 OptionTable make_rigid_bond_options() {
+  using R = RigidBondOptions;
   OptionTable all;
   all.add_said("on", "the name of an ensemble", "whose bonds they are, moved by the leap-frog");
   all.add_said("pairs", "`\"bonds\"`, `[[0, 1], [0, 2]]` or `{ file = \"bonds.txt\" }`",
                "which particles: those that are bonded, or others, as `bonds` of `[[ensembles]]` are written",
                "`\"bonds\"`");
-  all.add_said("length", "a length, positive", "of all of them");
-  all.add_said("tolerance", "a number between 0 and 0.1", "how exactly they keep it, in parts of the length",
-               "`1e-10`");
+  all.add("length", &R::length, number(dimensions::length, positive), "of all of them");
+  all.add("tolerance", &R::tolerance, number(dimensions::none, {1e-14, 0.1}),
+          "how exactly they keep it, in parts of the length");
   all.at("on").needed = "\"water\"";
   all.at("length").needed = "\"1 angstrom\"";
   return all;
@@ -407,9 +398,7 @@ OptionTable make_region_options() {
   OptionTable all;
   all.add("low", &RegionOptions::low, vector(dimensions::length), "the lower edges of the block");
   all.add("high", &RegionOptions::high, vector(dimensions::length), "the upper edges");
-  all.add_of<RegionOptions>(
-      "side", [](RegionOptions& r) -> OptionPlace { return named_value(&r.side, sides); }, word(sides.names()),
-      "nothing gets in, or nothing that is inside gets out");
+  all.add("side", &RegionOptions::side, sides, "nothing gets in, or nothing that is inside gets out");
   all.at("low").needed = "[2, 2]";
   all.at("high").needed = "[4, 4]";
   all.at("side").needed = "\"keep-out\"";
@@ -442,18 +431,14 @@ OptionTable make_wall_options() {
   using W = WallOptions;
   static Words<Box::End> const ends{"end", {{Box::End::low, "low", ""}, {Box::End::high, "high", ""}}};
   OptionTable all;
-  all.add_said("axis", "x, y or z", "that the wall ends");
-  all.add_of<W>(
-      "end", [](W& w) -> OptionPlace { return named_value(&w.end, ends); }, word(ends.names()), "which end of it");
+  all.add("axis", &W::axis, axis_word(), "that the wall ends");
+  all.add("end", &W::end, ends, "which end of it");
   all.add("open", &W::open, flag(), "no wall at this end: a free surface");
-  all.add_of<W>(
-      "slips", [](W& w) -> OptionPlace { return &w.wall.slips; }, flag(),
-      "of a mirror; else matter at the wall moves with it");
+  all.add("slips", &W::wall, &Wall::slips, flag(), "of a mirror; else matter at the wall moves with it");
   all.add("velocity", &W::velocity, vector(dimensions::velocity), "along the axis it makes a piston; else of a mirror",
           "none");
-  all.add_of<W>(
-      "temperature", [](W& w) -> OptionPlace { return &w.wall.temperature; },
-      number(dimensions::temperature, not_negative), "of a mirror", "no heat goes through");
+  all.add("temperature", &W::wall, &Wall::temperature, number(dimensions::temperature, not_negative), "of a mirror",
+          "no heat goes through");
   all.at("axis").needed = "\"y\"";
   all.at("end").needed = "\"low\"";
   return all;
@@ -494,6 +479,30 @@ OptionTable make_equilibration_options() {
 
 }  // namespace
 
+OptionTable const& units_options() { return once<make_units_options>(); }
+OptionTable units_options(std::string const& base) {
+  auto const of = [](std::vector<std::pair<char const*, char const*>> const& with_examples) {
+    std::vector<OptionKey> keys;
+    for (auto const& [key, example] : with_examples) keys.push_back({.key = key, .needed = example});
+    return units_options().only(keys);
+  };
+  if (base == "lennard-jones")
+    return of({{"sigma", "\"3.405 angstrom\""}, {"epsilon", "\"0.01032 eV\""}, {"mass", "\"39.948 amu\""}});
+  if (base == "gravitational") return of({{"length", "\"1 AU\""}, {"mass", "\"1 Msun\""}});
+  if (base == "plasma")
+    return of({{"density", "\"1e18 1/m^3\""},
+               {"charge", "\"1.602176634e-19 C\""},
+               {"mass", "\"9.1093837015e-31 kg\""},
+               {"temperature", "\"10000 K\""}});
+  if (base == "custom")
+    return of({{"length", "\"1 angstrom\""},
+               {"mass", "\"1 amu\""},
+               {"time", "\"1 ps\""},
+               {"temperature", ""},
+               {"charge", ""}});
+  return {};
+}
+OptionTable const& sweep_picture_options() { return once<make_sweep_picture_options>(); }
 OptionTable const& event_options() { return once<make_event_options>(); }
 OptionTable const& run_options() { return once<make_run_options>(); }
 OptionTable const& box_options() { return once<make_box_options>(); }
@@ -513,6 +522,9 @@ OptionTable const& equilibration_options() { return once<make_equilibration_opti
 namespace {
 
 std::vector<ScenarioTable> make_tables() {
+  static InfluenceOptions influence;
+  static RigidBondOptions rigid;
+  static ClassFieldOptions field;
   static WallOptions wall;
   static RunOptions run;
   static BathOptions bath;
@@ -529,9 +541,9 @@ std::vector<ScenarioTable> make_tables() {
   static OutflowOptions outflow;
   static DyeOptions dye;
   static BodyOptions body;
-  static OptionTable const units = make_units_options();
+  static UnitsOptions units;
   std::vector<ScenarioTable> all = {
-      {"units", "[units]", "what plain numbers mean, and the units of the results", &units, nullptr},
+      {"units", "[units]", "what plain numbers mean, and the units of the results", &units_options(), &units},
       {"box", "[box]", "the space", &box_options(), nullptr},
       {"box.walls", "[[box.walls]]", "the walls of mirror axes, and what is moved or left out of reflecting ones",
        &wall_options(), &wall},
@@ -541,17 +553,18 @@ std::vector<ScenarioTable> make_tables() {
     all.push_back(scheme.told);
     all.insert(all.end(), scheme.inner.begin(), scheme.inner.end());
   }
-  static OptionTable const sweep = make_sweep_options(), picture = make_sweep_picture_options();
+  static OptionTable const sweep = make_sweep_options();
+  static SweepPictureOptions picture;
   all.insert(
       all.end(),
       {{"classes", "[[classes]]", "a class of particles that is derived from another one", &class_options(), nullptr},
-       {"classes.fields", "[[classes.fields]]", "a field of such a class", &class_field_options(), nullptr},
+       {"classes.fields", "[[classes.fields]]", "a field of such a class", &class_field_options(), &field},
        {"ensembles", "[[ensembles]]", "the particles of one class", &ensemble_options(), &ensemble},
        {"ensembles.set", "[[ensembles.set]]", "other values for some particles, beside the fields of their class",
         &set_options(), &set},
        {"bodies", "[[bodies]]", "a solid body in a plane flow, which flows around its outline", &body_options(), &body},
-       {"influences", "[[influences]]", "a law, and on whom it acts", &influence_options(), nullptr},
-       {"rigid_bonds", "[[rigid_bonds]]", "bonds of a fixed length", &rigid_bond_options(), nullptr},
+       {"influences", "[[influences]]", "a law, and on whom it acts", &influence_options(), &influence},
+       {"rigid_bonds", "[[rigid_bonds]]", "bonds of a fixed length", &rigid_bond_options(), &rigid},
        {"remesh", "[[remesh]]", "vortices that are replaced by others on a lattice while the run goes on",
         &remesh_options(), &remesh},
        {"split_cores", "[[split_cores]]", "vortices whose cores have grown wide are split while the run goes on",
@@ -568,7 +581,8 @@ std::vector<ScenarioTable> make_tables() {
         &relaxation_options(), &relaxation},
        {"sweep", "[sweep]", "the same scenario for several values of its keys, and with several seeds", &sweep,
         nullptr},
-       {"sweep.pictures", "[[sweep.pictures]]", "a picture of all runs of a sweep", &picture, nullptr}});
+       {"sweep.pictures", "[[sweep.pictures]]", "a picture of all runs of a sweep", &sweep_picture_options(),
+        &picture}});
   return all;
 }
 

@@ -4,6 +4,7 @@
 #include <boltzmann/boundaries/box.hpp>
 #include <boltzmann/core/options.hpp>
 #include <boltzmann/integrators/integrator.hpp>
+#include <boltzmann/laws/formula_law.hpp>
 #include <boltzmann/loaders/random_load.hpp>
 #include <boltzmann/particles/ensemble.hpp>
 #include <boltzmann/simulation/barostat.hpp>
@@ -17,16 +18,27 @@
 
 namespace boltzmann {
 
-/// [run]; its step, its length and what ends it are read by code. A new key is a member, a row of the table, and its
-/// use in read_run() (read_box_and_run.cpp).
+/// [run]; its step and what ends it are read by code. A new key is a member, a row of the table, and its use where the
+/// run is built.
 struct RunOptions {
-  std::int64_t seed = 1;
+  std::int64_t steps = 0;
+  std::optional<double> time;  ///< instead of the number of steps
+  std::uint64_t seed = 1;
   int threads = 0;
   std::optional<double> cutoff, skin, tolerance;
   std::optional<SubstepOptions> substeps;
   bool shifted = true;
 };
 OptionTable const& run_options();
+
+/// [units]: quantities that are 1, in SI.
+struct UnitsOptions {
+  std::string base;
+  std::optional<double> sigma, epsilon, mass, length, time, density, charge, temperature;
+};
+OptionTable const& units_options();
+/// Those that a base has, besides its name.
+OptionTable units_options(std::string const& base);
 
 /// [box]; corners, boundaries, walls and regions are read by code.
 struct BoxOptions {
@@ -40,8 +52,9 @@ struct BoxOptions {
 /// `shear` in it.
 OptionTable const& shear_options();
 
-/// [[box.walls]]; the axis is read by code.
+/// [[box.walls]]
 struct WallOptions {
+  std::string axis;
   Box::End end = Box::End::low;
   bool open = false;
   std::optional<std::array<double, 3>> velocity;
@@ -56,11 +69,11 @@ struct RegionOptions {
 };
 OptionTable const& region_options();
 
-/// [[ensembles]]; the class, how it is loaded and the fields are read by code.
+/// [[ensembles]]; the class, how it is loaded, bonds and the fields are read by code.
 struct EnsembleOptions {
   std::string name;
   std::optional<Method> integrator;
-  std::size_t number = 0;
+  std::size_t number = 0, molecule = 0;
   Appearance appearance;
   std::optional<double> temperature;
   MaxwellianOptions thermal;
@@ -68,8 +81,17 @@ struct EnsembleOptions {
 };
 OptionTable const& ensemble_options();
 
-/// [[classes]] and one of their `fields`, which are read by code of their own.
+/// [[classes]], which are read by code of their own.
 OptionTable const& class_options();
+
+/// One of their `fields`; its default and its period are in its own unit, and read by code.
+struct ClassFieldOptions {
+  std::string name, kind = "scalar", unit, doc;
+  bool sum = false;
+  std::optional<double> neighbours;
+  std::vector<std::string> of;
+  std::size_t bond_order = 0;
+};
 OptionTable const& class_field_options();
 
 /// [[ensembles.set]]; who is meant and the fields are read by code.
@@ -91,17 +113,36 @@ struct EventOptions {
 };
 OptionTable const& event_options();
 
+/// [[sweep.pictures]]; what is to the right and upwards is read by code.
+struct SweepPictureOptions {
+  std::string drawing = "points", fit, file;
+  bool logarithmic = false;
+};
+OptionTable const& sweep_picture_options();
+
 /// [output]: steps between two.
 struct OutputOptions {
   std::int64_t diagnoses = 0, trajectory = 0, checkpoint = 0, mesh = 0;
 };
 OptionTable const& output_options();
 
-/// [box] and [[influences]], which are read by code of their own (box and run: read_box_and_run.cpp); beside these keys,
-/// influences have parameters.
 OptionTable const& box_options();
+
+/// [[influences]]: what is neither the law, nor on whom, nor a formula; beside these keys they have parameters.
+struct InfluenceOptions {
+  std::optional<double> cutoff, switch_from;
+  std::int64_t every = 1;
+  std::string precision = "full", changes;
+  std::vector<double> bonded_factors;
+  FormulaLaw::AtCutoff at_cutoff = FormulaLaw::AtCutoff::cut;
+  bool tail = false, from_outside = false;
+};
 OptionTable const& influence_options();
-/// [[rigid_bonds]], read by code, too.
+
+/// [[rigid_bonds]]; whose they are, and which particles, is read by code.
+struct RigidBondOptions {
+  double length = 0, tolerance = 1e-10;
+};
 OptionTable const& rigid_bond_options();
 /// Of [[dissipation]] between pairs, beside the keys of its kind.
 OptionTable const& dissipation_pair_options();

@@ -38,9 +38,7 @@ OptionTable make_barostat_options() {
   all.add_said("axes", "x, y or z, or a list of them", "whose lengths change, periodic ones", "all");
   all.add("together", &B::together, flag(),
           "all of them by one factor, from their mean pressure; else each by its own, from the pressure along it");
-  all.add_of<B>(
-      "method", [](B& b) -> OptionPlace { return named_value(&b.method, barostat_method_words()); },
-      word(barostat_method_words().names()), "how the box moves: by noise, or as a piston does");
+  all.add("method", &B::method, barostat_method_words(), "how the box moves: by noise, or as a piston does");
   all.add("every", &B::every, whole(1, std::numeric_limits<double>::infinity()), "steps from one move to the next");
   all.at("pressure").needed = "\"1 bar\"";
   all.at("temperature").needed = "\"300 K\"";

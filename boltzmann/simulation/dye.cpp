@@ -14,8 +14,10 @@ OptionTable const& dye_options() {
     using namespace option;
     OptionTable all;
     all.add_said("on", "the name of an ensemble", "of class Dye or Tracer, to which the released ones are added");
-    all.add_said("from", "a length along each axis", "where it is released, or one end of a line of places");
-    all.add_said("to", "a length along each axis", "the other end of the line", "one place");
+    all.add_of<DyeOptions>(
+        "from", [](DyeOptions& dye) -> OptionPlace { return std::span(dye.from); }, vector(dimensions::length),
+        "where it is released, or one end of a line of places");
+    all.add("to", &DyeOptions::to, vector(dimensions::length), "the other end of the line", "one place");
     all.add("places", &DyeOptions::places, whole(1, 1e6), "on the line, both ends included");
     all.add("every", &DyeOptions::every, whole(1, std::numeric_limits<double>::infinity()),
             "steps from one release to the next");

@@ -24,7 +24,7 @@ struct DyeOptions {
   std::size_t first_place = 1;              ///< number of the place `from`, where several sources share an ensemble
   std::int64_t every = 1;                   ///< steps; for scenarios
 };
-/// The keys of a scenario; the ensemble, `from` and `to` are read by code.
+/// The keys of a scenario; the ensemble is read by code.
 OptionTable const& dye_options();
 
 /// Each change appends one tracer for each place, as long as the ensemble has no more than `limit`: rows of one place are

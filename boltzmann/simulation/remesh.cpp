@@ -460,28 +460,24 @@ OptionTable const& remesh_options() {
   using namespace option;
   static OptionTable const all = [] {
     using R = RemeshOptions;
-    auto const how = [](auto Remeshing::*member) { return [member](R& r) -> OptionPlace { return &(r.how.*member); }; };
     OptionTable table;
     table.add("every", &R::every, whole(1, std::numeric_limits<double>::infinity()),
               "so many steps from one remeshing to the next");
     table.add_said("on", "the name of an ensemble, or a list", "who is remeshed, each by itself",
                    "all that have vorticity");
-    table.add_of<R>("spacing", how(&Remeshing::spacing), number(dimensions::length, positive),
-                    "of the nodes, which stand where those of the loader `fill` do; it must divide periodic axes");
-    table.add_of<R>(
-        "kernel", [](R& r) -> OptionPlace { return named_value(&r.how.kernel, remesh_kernel_words()); },
-        word(remesh_kernel_words().names()),
-        "`\"m4\"`: M4' of Monaghan, 4 nodes an axis, keeps the moments 0 to 2; `\"m6\"`: M6* of Bergdorf and "
-        "Koumoutsakos, 6 nodes, moments 0 to 4");
-    table.add_of<R>("core", how(&Remeshing::core), number(dimensions::length, not_negative), "of the new vortices",
-                    "one and a half of the spacing");
-    table.add_of<R>("threshold", how(&Remeshing::threshold), number(dimensions::none, {0, 1, false}),
-                    "nodes with less than this part of the greatest vorticity are weak, and left out");
-    table.add_of<R>(
-        "max_loss", how(&Remeshing::max_loss), number(dimensions::none, {0, 1, false}),
-        "weak nodes stay where they would make more than this part of the sum of all magnitudes, each time");
-    table.add_of<R>("margin", how(&Remeshing::margin), whole(0, 100),
-                    "so many nodes around those that are not weak are there in any case: vorticity can spread to them");
+    table.add("spacing", &R::how, &Remeshing::spacing, number(dimensions::length, positive),
+              "of the nodes, which stand where those of the loader `fill` do; it must divide periodic axes");
+    table.add("kernel", &R::how, &Remeshing::kernel, remesh_kernel_words(),
+              "`\"m4\"`: M4' of Monaghan, 4 nodes an axis, keeps the moments 0 to 2; `\"m6\"`: M6* of Bergdorf and "
+              "Koumoutsakos, 6 nodes, moments 0 to 4");
+    table.add("core", &R::how, &Remeshing::core, number(dimensions::length, not_negative), "of the new vortices",
+              "one and a half of the spacing");
+    table.add("threshold", &R::how, &Remeshing::threshold, number(dimensions::none, {0, 1, false}),
+              "nodes with less than this part of the greatest vorticity are weak, and left out");
+    table.add("max_loss", &R::how, &Remeshing::max_loss, number(dimensions::none, {0, 1, false}),
+              "weak nodes stay where they would make more than this part of the sum of all magnitudes, each time");
+    table.add("margin", &R::how, &Remeshing::margin, whole(0, 100),
+              "so many nodes around those that are not weak are there in any case: vorticity can spread to them");
     table.at("every").needed = "10";
     table.at("spacing").needed = "0.05";
     return table;

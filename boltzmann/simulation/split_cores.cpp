@@ -227,22 +227,18 @@ OptionTable const& core_splitting_options() {
   using namespace option;
   static OptionTable const all = [] {
     using S = CoreSplittingOptions;
-    auto const how = [](double CoreSplitting::*member) {
-      return [member](S& s) -> OptionPlace { return &(s.how.*member); };
-    };
     OptionTable table;
     table.add("every", &S::every, whole(1, std::numeric_limits<double>::infinity()),
               "so many steps from one splitting to the next");
     table.add_said("on", "the name of an ensemble, or a list", "whose cores are split, each by itself",
                    "all of class `Spreading`");
-    table.add_of<S>("above", how(&CoreSplitting::above), number(dimensions::length, positive),
-                    "cores that are wider are split, into 4 around the old place in 2D, 6 in 3D");
-    table.add_of<S>("ratio", how(&CoreSplitting::ratio), number(dimensions::none, {0.5, 0.95, false}),
-                    "of the new cores to the old one");
-    table.add_of<S>(
-        "merge_within", how(&CoreSplitting::merge_within), number(dimensions::none, {0, 1, false}),
-        "two of like direction that are nearer to each other than this part of the narrower core become one, "
-        "unless its core would be wider than `above`; 0: nothing merges");
+    table.add("above", &S::how, &CoreSplitting::above, number(dimensions::length, positive),
+              "cores that are wider are split, into 4 around the old place in 2D, 6 in 3D");
+    table.add("ratio", &S::how, &CoreSplitting::ratio, number(dimensions::none, {0.5, 0.95, false}),
+              "of the new cores to the old one");
+    table.add("merge_within", &S::how, &CoreSplitting::merge_within, number(dimensions::none, {0, 1, false}),
+              "two of like direction that are nearer to each other than this part of the narrower core become one, "
+              "unless its core would be wider than `above`; 0: nothing merges");
     table.at("every").needed = std::string("5");
     table.at("above").needed = "0.1";
     return table;

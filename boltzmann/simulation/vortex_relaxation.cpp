@@ -116,12 +116,10 @@ OptionTable const& relaxation_options() {
     OptionTable all;
     all.add("every", &R::every, whole(1, std::numeric_limits<double>::infinity()),
             "so many steps from one relaxation to the next");
-    all.add_of<R>(
-        "fraction", [](R& r) -> OptionPlace { return &r.relaxing.fraction; }, number(dimensions::none, {0, 1, true}),
-        "of what has a divergence, each time");
-    all.add_of<R>(
-        "corrected", [](R& r) -> OptionPlace { return &r.relaxing.corrected; }, flag(),
-        "each vorticity keeps its length; else it becomes shorter where it turns");
+    all.add("fraction", &R::relaxing, &Relaxing::fraction, number(dimensions::none, {0, 1, true}),
+            "of what has a divergence, each time");
+    all.add("corrected", &R::relaxing, &Relaxing::corrected, flag(),
+            "each vorticity keeps its length; else it becomes shorter where it turns");
     all.at("every").needed = std::string("5");
     return all;
   }();

@@ -23,6 +23,7 @@ struct ToJson {
     return *vector ? json(**vector) : json(nullptr);
   }
   json operator()(std::optional<double> const* number) const { return *number ? json(**number) : json(nullptr); }
+  json operator()(std::span<double> vector) const { return json(vector); }
   json operator()(OptionGroup const&) const { return nullptr; }
   json operator()(std::monostate) const { return nullptr; }
   json operator()(NamedValue const& value) const { return value.name(); }

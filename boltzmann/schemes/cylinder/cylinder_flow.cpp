@@ -28,9 +28,14 @@ OptionTable const& cylinder_options() {
   static OptionTable const all = [] {
     using namespace option;
     OptionTable all;
+    auto const vector_of = [](Vector<2> CylinderOptions::*member) {
+      return [member](CylinderOptions& of) -> OptionPlace { return std::span((of.*member).component); };
+    };
     all.add("radius", &CylinderOptions::radius, number(dimensions::length, positive), "of the cylinder");
-    all.add_said("centre", "a length along each axis", "of the cylinder", "0 on each axis");
-    all.add_said("stream", "a velocity along each axis", "far from the cylinder", "none");
+    all.add_of<CylinderOptions>("centre", vector_of(&CylinderOptions::centre), vector(dimensions::length),
+                                "of the cylinder", "0 on each axis");
+    all.add_of<CylinderOptions>("stream", vector_of(&CylinderOptions::stream), vector(dimensions::velocity),
+                                "far from the cylinder", "none");
     all.add("circulation", &CylinderOptions::circulation, number(dimensions::circulation), "around the cylinder");
     all.at("radius").needed = "0.5";
     return all;

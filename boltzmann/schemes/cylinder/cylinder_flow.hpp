@@ -23,7 +23,6 @@ struct CylinderOptions {
   double radius = 1;
   double circulation = 0;  ///< around the cylinder
 };
-/// The keys of a scenario; centre and stream are read by code.
 OptionTable const& cylinder_options();
 
 /// What a cylinder makes of a flow: the stream U (1 - R^2 / z^2), a circulation, and for each vortex outside, at z0 with

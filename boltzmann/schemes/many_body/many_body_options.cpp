@@ -27,53 +27,39 @@ OptionTable const& embedded_atom_options() {  // long: a table, a row for each k
   using E = EmbeddedAtomOptions;
   static OptionTable const all = [] {
     OptionTable all;
-    auto const add = [&](char const* key, auto const& member, std::optional<Dimension> dimension, char const* doc,
+    auto const add = [&](char const* key, auto of, auto member, Dimension dimension, char const* doc,
                          char const* example) {
-      all.add_of<E>(key, member, number(dimension, positive), doc);
+      all.add(key, of, member, number(dimension, positive), doc);
       all.at(key).needed = example;
     };
-    all.add_of<E>(
-        "potential", [](E& e) -> OptionPlace { return named_value(&e.potential, metal_potential_words()); },
-        word(metal_potential_words().names()),
+    all.add(
+        "potential", &E::potential, metal_potential_words(),
         "what pairs, densities and atoms in densities have as energies: of Sutton and Chen, of Gupta, as typed, or a "
         "file's");
     all.at("potential").needed = "\"sutton-chen\"";
     all.add_said("on", "the name of an ensemble, or a list", "the atoms", "all that a force moves");
     all.add_said("elements", "a table, { atoms = \"Cu\" }", "of a file with several: the element of each ensemble",
                  "the ensemble's name");
-    all.add_said("file", "a text",
-                 "of `\"file\"`, from the scenario's folder: tables in eV and angstrom, setfl (eam.alloy) or funcfl");
+    all.add("file", &E::file, path(),
+            "of `\"file\"`, from the scenario's folder: tables in eV and angstrom, setfl (eam.alloy) or funcfl");
     all.at("file").needed = "\"Cu.eam.alloy\"";
-    add(
-        "epsilon", [](E& e) -> OptionPlace { return &e.sutton_chen.epsilon; }, dimensions::energy,
+    add("epsilon", &E::sutton_chen, &SuttonChen::epsilon, dimensions::energy,
         "of `\"sutton-chen\"`: the energy of pairs a apart", "\"12.382 meV\"");
-    add(
-        "a", [](E& e) -> OptionPlace { return &e.sutton_chen.a; }, dimensions::length,
-        "of `\"sutton-chen\"`: the lattice constant", "\"3.61 angstrom\"");
-    add(
-        "n", [](E& e) -> OptionPlace { return &e.sutton_chen.n; }, dimensions::none,
-        "of `\"sutton-chen\"`: how fast pair energies fall", "9");
-    add(
-        "m", [](E& e) -> OptionPlace { return &e.sutton_chen.m; }, dimensions::none,
-        "of `\"sutton-chen\"`: how fast densities fall", "6");
-    add(
-        "c", [](E& e) -> OptionPlace { return &e.sutton_chen.c; }, dimensions::none,
-        "of `\"sutton-chen\"`: how strongly densities bind", "39.432");
-    add(
-        "A", [](E& e) -> OptionPlace { return &e.gupta.A; }, dimensions::energy,
-        "of `\"gupta\"`: half the energy of pairs r0 apart", "\"85.5 meV\"");
-    add(
-        "xi", [](E& e) -> OptionPlace { return &e.gupta.xi; }, dimensions::energy,
-        "of `\"gupta\"`: the root of the density at r0", "\"1.224 eV\"");
-    add(
-        "p", [](E& e) -> OptionPlace { return &e.gupta.p; }, dimensions::none,
-        "of `\"gupta\"`: how fast pair energies fall", "10.96");
-    add(
-        "q", [](E& e) -> OptionPlace { return &e.gupta.q; }, dimensions::none,
-        "of `\"gupta\"`: how fast the roots of densities fall", "2.278");
-    add(
-        "r0", [](E& e) -> OptionPlace { return &e.gupta.r0; }, dimensions::length,
-        "of `\"gupta\"`: the distance of neighbours", "\"2.556 angstrom\"");
+    add("a", &E::sutton_chen, &SuttonChen::a, dimensions::length, "of `\"sutton-chen\"`: the lattice constant",
+        "\"3.61 angstrom\"");
+    add("n", &E::sutton_chen, &SuttonChen::n, dimensions::none, "of `\"sutton-chen\"`: how fast pair energies fall",
+        "9");
+    add("m", &E::sutton_chen, &SuttonChen::m, dimensions::none, "of `\"sutton-chen\"`: how fast densities fall", "6");
+    add("c", &E::sutton_chen, &SuttonChen::c, dimensions::none, "of `\"sutton-chen\"`: how strongly densities bind",
+        "39.432");
+    add("A", &E::gupta, &Gupta::A, dimensions::energy, "of `\"gupta\"`: half the energy of pairs r0 apart",
+        "\"85.5 meV\"");
+    add("xi", &E::gupta, &Gupta::xi, dimensions::energy, "of `\"gupta\"`: the root of the density at r0",
+        "\"1.224 eV\"");
+    add("p", &E::gupta, &Gupta::p, dimensions::none, "of `\"gupta\"`: how fast pair energies fall", "10.96");
+    add("q", &E::gupta, &Gupta::q, dimensions::none, "of `\"gupta\"`: how fast the roots of densities fall", "2.278");
+    add("r0", &E::gupta, &Gupta::r0, dimensions::length, "of `\"gupta\"`: the distance of neighbours",
+        "\"2.556 angstrom\"");
     all.add_said("pair", "a formula of r", "of `\"formulas\"`: the energy V of a pair");
     all.add_said("density", "a formula of r", "of `\"formulas\"`: the density rho that an atom makes, a pure number");
     all.add_said("embedding", "a formula of rho", "of `\"formulas\"`: the energy F of an atom in a density");
@@ -81,9 +67,9 @@ OptionTable const& embedded_atom_options() {  // long: a table, a row for each k
     all.at("pair").needed = "\"A*exp(-p*(r/r0 - 1))\"";
     all.at("density").needed = "\"exp(-2*q*(r/r0 - 1))\"";
     all.at("embedding").needed = "\"-xi*sqrt(rho)\"";
-    add(
-        "cutoff", [](E& e) -> OptionPlace { return &e.cutoff; }, dimensions::length,
-        "where pair energies and densities end; a file says so itself", "\"7.2 angstrom\"");
+    all.add("cutoff", &E::cutoff, number(dimensions::length, positive),
+            "where pair energies and densities end; a file says so itself");
+    all.at("cutoff").needed = "\"7.2 angstrom\"";
     all.add("switch_from", &E::from, number(dimensions::length, positive),
             "from here to the cut-off both are multiplied by a factor that falls from 1 to 0 with three continuous "
             "derivatives",
@@ -133,38 +119,25 @@ OptionTable const& stillinger_weber_options() {
   using S = StillingerWeberOptions;
   static OptionTable const all = [] {
     OptionTable all;
-    auto const add = [&](char const* key, auto const& member, OptionKind const& kind, char const* doc,
-                         char const* otherwise = "") { all.add_of<S>(key, member, kind, doc, otherwise); };
+    auto const add = [&](char const* key, auto member, OptionKind const& kind, char const* doc,
+                         char const* otherwise = "") { all.add(key, &S::law, member, kind, doc, otherwise); };
     all.add_said("on", "the name of an ensemble, or a list", "the atoms", "all that a force moves");
-    add(
-        "epsilon", [](S& s) -> OptionPlace { return &s.law.epsilon; }, number(dimensions::energy, positive),
+    add("epsilon", &StillingerWeber::epsilon, number(dimensions::energy, positive),
         "the depth of a pair's energy; of silicon `\"2.1683 eV\"`");
-    add(
-        "sigma", [](S& s) -> OptionPlace { return &s.law.sigma; }, number(dimensions::length, positive),
+    add("sigma", &StillingerWeber::sigma, number(dimensions::length, positive),
         "its length: 0.8909 of the distance of neighbours; of silicon `\"2.0951 angstrom\"`");
     all.at("epsilon").needed = "\"2.1683 eV\"";
     all.at("sigma").needed = "\"2.0951 angstrom\"";
-    add(
-        "A", [](S& s) -> OptionPlace { return &s.law.A; }, number(dimensions::none, not_negative),
+    add("A", &StillingerWeber::A, number(dimensions::none, not_negative),
         "of pairs: epsilon A (B (sigma/r)^p - (sigma/r)^q) exp(1/(r/sigma - a))");
-    add(
-        "B", [](S& s) -> OptionPlace { return &s.law.B; }, number(dimensions::none, not_negative),
-        "as above: of what repels");
-    add(
-        "p", [](S& s) -> OptionPlace { return &s.law.p; }, whole(0, 24), "as above: how fast what repels falls");
-    add(
-        "q", [](S& s) -> OptionPlace { return &s.law.q; }, whole(0, 24), "as above: how fast what attracts falls");
-    add(
-        "a", [](S& s) -> OptionPlace { return &s.law.a; }, number(dimensions::none, positive),
-        "the cut-off of pairs and bonds, in sigma");
-    add(
-        "lambda", [](S& s) -> OptionPlace { return &s.law.lambda; }, number(dimensions::none, not_negative),
+    add("B", &StillingerWeber::B, number(dimensions::none, not_negative), "as above: of what repels");
+    add("p", &StillingerWeber::p, whole(0, 24), "as above: how fast what repels falls");
+    add("q", &StillingerWeber::q, whole(0, 24), "as above: how fast what attracts falls");
+    add("a", &StillingerWeber::a, number(dimensions::none, positive), "the cut-off of pairs and bonds, in sigma");
+    add("lambda", &StillingerWeber::lambda, number(dimensions::none, not_negative),
         "the strength of angles: lambda epsilon g(r_ij) g(r_ik) (cos theta - cosine)^2, g = exp(gamma/(r/sigma - a))");
-    add(
-        "gamma", [](S& s) -> OptionPlace { return &s.law.gamma; }, number(dimensions::none, positive),
-        "as above: how far bonds reach");
-    add(
-        "cosine", [](S& s) -> OptionPlace { return &s.law.cosine; }, number(dimensions::none, {-1, 1, false}),
+    add("gamma", &StillingerWeber::gamma, number(dimensions::none, positive), "as above: how far bonds reach");
+    add("cosine", &StillingerWeber::cosine, number(dimensions::none, {-1, 1, false}),
         "as above: of the angle without energy", "-1/3, that of a tetrahedron");
     all.add("skin", &S::skin, number(dimensions::length, not_negative),
             "how far atoms move before lists are rebuilt: lists reach cut-off + skin", "0.12 of the cut-off");

@@ -30,9 +30,9 @@ OptionTable const& multipole_options() {
         "every", &MultipoleOptions::every, whole(1, 1e6),
         "so many steps from one calculation to the next, which then counts as often (r-RESPA); energies are right at "
         "multiples of it");
-    all.add_said("grid", "a whole number, or a list with one for each axis",
-                 "cells of a grid with the potential and the field (or velocity) on its nodes, for pictures and files",
-                 "none");
+    all.add("grid", &MultipoleOptions::grid, wholes_by_axis(1, 1e9),
+            "cells of a grid with the potential and the field (or velocity) on its nodes, for pictures and files",
+            "none");
     return all;
   }();
   return all;

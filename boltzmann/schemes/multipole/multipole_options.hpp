@@ -3,7 +3,9 @@
 
 #include <boltzmann/core/options.hpp>
 
+#include <cstddef>
 #include <cstdint>
+#include <vector>
 
 namespace boltzmann {
 
@@ -12,6 +14,7 @@ struct MultipoleOptions {
   double tolerance = 1e-4;
   bool background = false;
   std::int64_t every = 1;  ///< steps between two calculations (Simulation::every)
+  std::vector<std::size_t> grid = {};
 };
 OptionTable const& multipole_options();
 

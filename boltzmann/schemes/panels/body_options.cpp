@@ -23,9 +23,8 @@ OptionTable const& body_options() {
     all.add("name", &B::name, text(),
             "for the rest of the file, the columns and the legends: the body's panels are an "
             "ensemble of this name");
-    all.add_of<B>(
-        "shape", [](B& b) -> OptionPlace { return named_value(&b.shape, body_shape_words()); },
-        word(body_shape_words().names()),
+    all.add(
+        "shape", &B::shape, body_shape_words(),
         "a circle, an ellipse, an aerofoil of NACA's four digits with a closed trailing edge, a polygon, also from a "
         "file");
     all.add("centre", &B::centre, vector(dimensions::length),
@@ -39,16 +38,15 @@ OptionTable const& body_options() {
     all.add("angle", &B::angle, degrees(),
             "of an ellipse or a file's shape counterclockwise; of an aerofoil that of attack, which lifts its nose");
     all.add("points", &B::points, numbers(dimensions::length), "corners of a polygon, pairs, either way around");
-    all.add_said("path", "a text",
-                 "of a file, from the scenario's folder: x and y of one corner a line, either way around");
+    all.add("path", &B::path, path(),
+            "of a file, from the scenario's folder: x and y of one corner a line, either way around");
     all.add("length", &B::length, number(dimensions::length, positive), "the file's unit of length", "the base's");
     all.add("panels", &B::panels, whole(3, 2000),
             "how many pieces the outline is cut into; 2000 of all bodies at most");
-    all.add_of<B>(
-        "circulation", [](B& b) -> OptionPlace { return &b.sheet.circulation; }, number(dimensions::circulation),
-        "of the body's vortex sheet, counterclockwise");
-    all.add_of<B>(
-        "kutta", [](B& b) -> OptionPlace { return &b.sheet.kutta; }, flag(),
+    all.add("circulation", &B::sheet, &BodySheet::circulation, number(dimensions::circulation),
+            "of the body's vortex sheet, counterclockwise");
+    all.add(
+        "kutta", &B::sheet, &BodySheet::kutta, flag(),
         "the flow leaves the trailing edge smoothly, which gives the circulation; of a polygon, also from a file, its "
         "first point is that "
         "edge");
@@ -57,12 +55,9 @@ OptionTable const& body_options() {
         "the ensemble that the vorticity enters which a wall makes where fluid sticks to it; class `Diffusive` with a "
         "viscosity",
         "the fluid slips");
-    all.add_of<B>(
-        "colour", [](B& b) -> OptionPlace { return &b.appearance.colour; }, text(), "in pictures, as of an ensemble",
-        "chosen for you");
-    all.add_of<B>(
-        "diameter", [](B& b) -> OptionPlace { return &b.appearance.diameter; },
-        number(dimensions::length, not_negative), "of panels in pictures", "their length");
+    all.add("colour", &B::appearance, &Appearance::colour, text(), "in pictures, as of an ensemble", "chosen for you");
+    all.add("diameter", &B::appearance, &Appearance::diameter, number(dimensions::length, not_negative),
+            "of panels in pictures", "their length");
     all.at("name").needed = "\"cylinder\"";
     all.at("shape").needed = "\"circle\"";
     all.at("radius").needed = "1";

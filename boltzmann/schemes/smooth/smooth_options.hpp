@@ -5,6 +5,7 @@
 #include <boltzmann/schemes/smooth/rezone.hpp>
 #include <boltzmann/schemes/smooth/smooth_scheme.hpp>
 
+#include <array>
 #include <cstdint>
 #include <optional>
 
@@ -21,10 +22,11 @@ struct SmoothOptions {
 };
 OptionTable const& smooth_options();
 
-/// A rezoning, and how often it is done. On whom, and where, the reader of the scenario finds.
+/// A rezoning, and how often it is done. On whom the reader of the scenario finds.
 struct RezoneOptions {
   std::int64_t every = 1;
   Rezoning policy;
+  std::optional<std::array<double, 3>> low, high;  ///< corners of its block
 };
 OptionTable const& rezone_options();
 
