@@ -1,11 +1,11 @@
 # Batches: sources of one room are compiled a few at a time as one unit, which reads the headers once.
 # batch_rooms(size source...) puts each room's sources into batches of about equal length, `size` sources at most. Those that
-# name the kernels of an instruction set keep to themselves: another choice of sets (`make test` after `make run`) compiles no others.
+# name the kernels of an instruction set keep to themselves, half as many at a time, as they take long: another choice of sets
+# (`make test` after `make run`) compiles no others.
 function(batch_rooms size)
   foreach(source ${ARGN})
     cmake_path(RELATIVE_PATH source BASE_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}/boltzmann OUTPUT_VARIABLE name)
-    cmake_path(GET name PARENT_PATH room)
-    string(REPLACE "/" "_" room ${room})
+    string(REGEX REPLACE "/.*" "" room ${name})
     file(STRINGS ${source} names_sets REGEX "include.*(kernel_sets|kernel_dispatch|law_binding)\\.hpp")
     if(names_sets)
       string(APPEND room _sets)
@@ -16,7 +16,11 @@ function(batch_rooms size)
   list(REMOVE_DUPLICATES rooms)
   foreach(room ${rooms})
     list(LENGTH room_${room} length)
-    math(EXPR batches "(${length} + ${size} - 1) / ${size}")
+    set(most ${size})
+    if(room MATCHES "_sets$")
+      math(EXPR most "${size} / 2")
+    endif()
+    math(EXPR batches "(${length} + ${most} - 1) / ${most}")
     set(number 0)
     foreach(source ${room_${room}})
       math(EXPR batch "${number} * ${batches} / ${length}")

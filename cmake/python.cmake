@@ -47,8 +47,9 @@ message(STATUS "Python package for ${Python_EXECUTABLE} ${Python_VERSION}")
 set(package ${CMAKE_CURRENT_BINARY_DIR}/python/boltzmann)
 file(GLOB module_sources CONFIGURE_DEPENDS python/module/*.cpp)
 Python_add_library(python_module MODULE WITH_SOABI ${module_sources})
+# In two units: headers are most of what is compiled.
 set_target_properties(python_module PROPERTIES OUTPUT_NAME _core LIBRARY_OUTPUT_DIRECTORY ${package} BOLTZMANN_PORTABLE ON
-                      CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
+                      CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 4)
 target_include_directories(python_module SYSTEM PRIVATE ${PYBIND11_HEADERS})
 # Nothing here is an inner loop.
 target_compile_options(python_module PRIVATE -Wall -Wextra -Wno-psabi $<$<CONFIG:Release,RelWithDebInfo>:-O1>)

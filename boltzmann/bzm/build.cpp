@@ -124,6 +124,10 @@ int build(BuildOptions const& options) {
   if (isatty(STDERR_FILENO) == 1) line.emplace_back("-fdiagnostics-color=always");  // they go through a pipe
   line.push_back("-I" + place.include);
   if (!place.precompiled.empty() && !chosen) line.insert(line.end(), {"-include", place.precompiled});
+#ifndef BOLTZMANN_SANITIZED
+  // It takes half the time of the usual one.
+  if (!chosen && !find_program("ld.gold").empty()) line.emplace_back("-fuse-ld=gold");
+#endif
   line.push_back(options.program);
   line.emplace_back("-o");
   line.push_back(out);

@@ -104,7 +104,7 @@ def test_movies(stored, tmp_path):
 
 
 def test_what_diagnoses_gather_is_stored(tmp_path):
-    sim = bz.load("argon", steps=40)
+    sim = bz.load("argon", set={"equilibrate.time": 0.2}, steps=40)
     sim.run(out=tmp_path / "argon")
     gathered = bz.open(tmp_path / "argon").gathered
     assert "radial-distribution" in gathered

@@ -95,8 +95,8 @@ TEST_P(VortexTolerance, IsKept) {
   auto const cores = static_cast<Cores>(GetParam() % 3);
   int seed = 10 * GetParam();
   for (double const tolerance : {1e-2, 1e-4, 1e-7}) {
-    expect_tolerance<Vortex<2>>(shape, cores, 9'000, tolerance, seed++);
-    expect_tolerance<Inviscid<3>>(shape, cores, 9'000, tolerance, seed++);
+    expect_tolerance<Vortex<2>>(shape, cores, 5'500, tolerance, seed++);
+    expect_tolerance<Inviscid<3>>(shape, cores, 5'500, tolerance, seed++);
     expect_tolerance<Vortex<3>>(shape, cores, 2'500, tolerance, seed++);
   }
 }

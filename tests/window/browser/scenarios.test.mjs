@@ -18,7 +18,7 @@ for (const name of names)
     // What comes before the first step is the same without a window: it is made short. A few steps are all that is looked at:
     // a run that goes on until a busy browser has stopped it costs a minute where it does many.
     const text = readFileSync(new URL(`${name}.toml`, scenarios), "utf8");
-    const words = ["--steps", "5"];
+    const words = ["--steps", "3"];
     if (/^\[equilibrate\]/m.test(text)) words.push("--set", "equilibrate.time=0.1");
     if (/^\[sweep\]/m.test(text)) words.push("--no-sweep"); // of a time, maybe, which says the same as steps
     const run = await bzm(t, ["run", name, "--window", "--out", "run", ...words]);
@@ -33,7 +33,7 @@ for (const name of names)
     assert.equal(page.wire.update.message, "");
     await page.keyboard.press("Space");
     await until(() => page.wire.update.state === "done", () => `the steps of ${name}: ${JSON.stringify(page.wire.update.message)}`);
-    assert.equal(page.wire.update.step, 5);
+    assert.equal(page.wire.update.step, 3);
     await pictureOf(page);
     await painted(page, 1, 2e-5);
     if (page.wire.hello.dimension === 3 && shown.drawing === "cartesian") {

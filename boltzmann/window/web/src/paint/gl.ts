@@ -9,7 +9,7 @@ precision highp int;
 uniform vec3 scale, origin;
 uniform vec2 logs, size;
 uniform mat4 matrix;
-uniform float unit, fade;
+uniform float unit, fade, margin;
 uniform vec4 ink, paper;
 vec3 pixels(vec3 place) {
   vec3 q = place * scale + origin;
@@ -18,7 +18,7 @@ vec3 pixels(vec3 place) {
   return (matrix * vec4(q, 1)).xyz;
 }
 bool visible(vec3 p) { return abs(p.x) < 1e8 && abs(p.y) < 1e8 && abs(p.z) < 1e8; }
-vec4 toClip(vec2 p, float far) { return vec4(p / size * 2. - 1., clamp((far - .5) / 4., -.99, .99), 1); }
+vec4 toClip(vec2 p, float far) { return vec4((p + margin) / (size + 2. * margin) * 2. - 1., clamp((far - .5) / 4., -.99, .99), 1); }
 vec3 inked(vec3 c) { return all(lessThan(abs(c * 255. - 1.), vec3(.5))) ? ink.rgb : c; }
 vec3 faded(vec3 c, float depth) { return mix(c, paper.rgb, clamp(depth, 0., 1.) * fade); }
 `;
@@ -265,7 +265,6 @@ export class Shared {
   grow(width: number, height: number) {
     if (this.element.width < width) this.element.width = width;
     if (this.element.height < height) this.element.height = height;
-    this.gl.viewport(0, 0, width, height);
   }
 
   /** Where in the table of colours a map is, 0..1. */

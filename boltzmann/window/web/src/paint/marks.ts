@@ -92,7 +92,10 @@ export class GpuMarks {
     this.slots = [];
   }
 
-  /** Draws mark number `first` and then every so manieth. */
+  /**
+   * Draws mark number `first` and then every so manieth. Points are for clouds: without a graphics card, quads, which are
+   * instances, are drawn one by one, a hundred times as slowly.
+   */
   private draw(sources: (Source | null)[], count: number, quads: boolean, every = 1, first = 0) {
     const { gl } = this.shared;
     sources.forEach((source, place) => {
@@ -119,14 +122,17 @@ export class GpuMarks {
     else gl.drawArrays(gl.POINTS, 0, some);
   }
 
-  private values(scene: Scene, mapping: Mapping) {
-    const { theme } = scene;
+  /** margin: pixels around the pane in which points may have their centres: elsewhere WebGL drops the whole point. */
+  private values(scene: Scene, mapping: Mapping, margin = 0) {
+    const { theme, width, height } = scene;
+    this.shared.gl.viewport(-margin, -margin, width + 2 * margin, height + 2 * margin);
     return {
+      margin,
       scale: mapping.scale,
       origin: mapping.origin,
       logs: mapping.logs,
       matrix: mapping.matrix,
-      size: [scene.width, scene.height],
+      size: [width, height],
       unit: scene.unit,
       fade: scene.look.fade,
       ink: theme.ink,
@@ -181,11 +187,10 @@ export class GpuMarks {
     gl.vertexAttrib1f(2, given ? mark.diameter : mark.size);
     gl.vertexAttrib4f(3, ...colour);
     gl.vertexAttrib2f(4, 0, -1);
-    const quads =
-      perSize * (given ? slot.largest : mark.size) > Math.min(24 * unit, this.shared.largestPoint) ||
-      (given && mapping.logs[0] > 0);
+    const largest = perSize * (given ? slot.largest : mark.size);
+    const quads = largest > this.shared.largestPoint || (given && mapping.logs[0] > 0);
     discs.use({
-      ...this.values(scene, mapping),
+      ...this.values(scene, mapping, quads ? 0 : Math.ceil(largest / 2) + 1),
       // Where the colour carries a value, fading is weak: the colour bar must stay readable.
       fade: mark.values ? 0.4 * look.fade : look.fade,
       toRadius: perSize / 2,
