@@ -60,6 +60,7 @@ void Registers::leave(int r) {
   if (!old.in_column && old.is_wanted(at_)) {
     vmovapd(column(old.column), reg(r));
     old.in_column = true;
+    ++to_columns_;
   }
   forget(r);
 }
@@ -108,7 +109,7 @@ void Registers::begin(Flow& flow, Xbyak::RegExp const& columns, int column_bytes
 
 void Registers::keep(Number from, Number to) {
   for (auto n = static_cast<std::size_t>(from); n <= static_cast<std::size_t>(to); ++n) {
-    if (number_register_[n] || registers_ <= for_values) continue;
+    if (number_register_[n] || registers_ <= for_values_) continue;
     number_register_[n] = reg(--registers_);
     vmovapd(*number_register_[n], number_memory_[n]);
   }
@@ -117,7 +118,7 @@ void Registers::keep(Number from, Number to) {
 void Registers::keep_scalars(std::vector<Step> const& steps, std::size_t first, std::size_t end) {
   for (std::size_t k = first; k < end; ++k)
     for (Operand const operand : {steps[k].a, steps[k].b, steps[k].c}) {
-      if (!operand.scalar || scalar_register_[operand.index] || registers_ <= for_values) continue;
+      if (!operand.scalar || scalar_register_[operand.index] || registers_ <= for_values_) continue;
       scalar_register_[operand.index] = reg(--registers_);
       vmovapd(*scalar_register_[operand.index], scalar(operand.index));
     }

@@ -162,7 +162,10 @@ class Registers : protected Xbyak::CodeGenerator {
   /// Before a loop, behind keep_numbers(): scalars of its steps, in registers that are left.
   void keep_scalars(std::vector<Step> const& steps, std::size_t first, std::size_t end);
 
-  static constexpr int for_values = 14;  // registers
+  /// Registers that no number nor scalar takes away. An exponential needs the fewest at a time.
+  static constexpr int fewest_for_values = 9, usual_for_values = 14;
+  int for_values_ = usual_for_values;
+  int to_columns_ = 0;  ///< how often a value that is needed still went to its column
   int width_;
   Flow* flow_ = nullptr;
   Xbyak::RegExp columns_;

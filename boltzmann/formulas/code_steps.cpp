@@ -147,8 +147,8 @@ void Steps::fuse(Source a, Source b, Source const& c, int to) {
 
 void Steps::reciprocal(Source const& a, int to) {
   int const r = take();
-  vmovapd(reg(r), number(Number::one));
-  with(a, [&](auto const& x) { vdivpd(reg(r), reg(r), x); });
+  Xmm const one = kept(Number::one, reg(r));
+  with(a, [&](auto const& x) { vdivpd(reg(r), one, x); });
   hold(r, to);
 }
 
@@ -157,8 +157,7 @@ void Steps::inverse_root(Source const& a, int to) {
   if (width_ == 4) {
     int const root = take();
     with(a, [&](auto const& x) { vsqrtpd(reg(root), x); });
-    vmovapd(reg(r), number(Number::one));
-    vdivpd(reg(r), reg(r), reg(root));
+    vdivpd(reg(r), kept(Number::one, reg(r)), reg(root));
     return hold(r, to);
   }
   Xmm const x = in(a), y = reg(r), e = reg(take()), p = reg(take());

@@ -16,6 +16,7 @@ struct Workspace {
   using Real = Pack<double, W>;
   alignas(64) double columns[max_columns * block_pairs];
   alignas(64) double scalars[(max_scalars + 4) * W];  // those of a list's rows stand behind a program's
+  alignas(64) double nowhere[block_pairs];            // a column for what nobody reads
 
   double* column(std::size_t which) { return columns + which * block_pairs; }
   void set_scalar(std::size_t which, double value) { store_pack<W>(scalars + which * W, Real(value)); }
@@ -208,19 +209,20 @@ void run_row(Workspace<W>& work, FormulaProgram const& program) {
   if (program.code && program.code->row()) return program.code->row()(work.scalars);
   run_steps<W>(work, program.row_steps.data(), program.row_steps.size(), 1);
 }
-/// Steps at the beginning of an interpreted program that whoever writes column `which` may do at once, with lead(): the
-/// divider works while numbers are gathered.
+/// Steps of an interpreted program, behind those of single columns, that whoever writes column `which` may do at once,
+/// with lead(): the divider works while numbers are gathered.
 template <int W>
 std::size_t leading_steps(FormulaProgram const& program, std::size_t which) {
-  std::size_t count = 0;
   auto const leads = [&](Step const& step) {
     bool const divides = step.instruction == Instruction::reciprocal || step.instruction == Instruction::root ||
                          (step.instruction == Instruction::inverse_root && W != 8);
     return divides && !step.a.scalar && step.a.index == which && !step.to.scalar;
   };
+  std::size_t const begin = program.of_one_column;
+  std::size_t end = begin;
   if (!program.code)
-    while (count < program.steps.size() && leads(program.steps[count])) ++count;
-  return count;
+    while (end < program.steps.size() && leads(program.steps[end])) ++end;
+  return end - begin;
 }
 /// A leading step, of this pack.
 template <int W>

@@ -32,8 +32,9 @@ struct Written {
 
 class Writer {
  public:
-  Writer(ExpressionGraph& graph, std::span<std::uint32_t const> columns, std::span<std::uint32_t const> of_row)
-      : graph_(graph) {
+  Writer(ExpressionGraph& graph, std::span<std::uint32_t const> columns, std::span<std::uint32_t const> of_row,
+         std::size_t gathered)
+      : graph_(graph), gathered_(gathered) {
     for (auto const input : columns) inputs_[input] = {Value::Place::column, columns_++};
     for (auto const input : of_row) inputs_[input] = {Value::Place::row, rows_++};
     given_columns_ = columns_;
@@ -46,7 +47,8 @@ class Writer {
     for (auto const e : shared) ++readers_[e], look_through(e);
     std::vector<Value> values;
     for (auto const e : shared) values.push_back(value_of(e));
-    return placed(values);
+    std::size_t const first = steps_of_one_column_first(values);
+    return placed(values, first);
   }
 
  private:
@@ -262,6 +264,34 @@ class Writer {
     return total;
   }
 
+  /// What is done with a gathered column and a number of the row, and with that column nowhere else, comes first. How many
+  /// steps these are, of those that results need.
+  std::size_t steps_of_one_column_first(std::vector<Value> const& results) {
+    Needs const needs = needs_of(results);
+    std::vector<int> reads(columns_, 0);
+    auto const read = [&](Value v) {
+      if (v.place == Value::Place::column) ++reads[v.index];
+    };
+    for (auto const result : results) read(result);
+    for (auto const& step : steps_) {
+      if (!needs.column[step.to.index]) continue;
+      Value const operands[] = {step.a, step.b, step.c};
+      for (int n = 0; n < step.operands; ++n) read(operands[n]);
+    }
+    auto const is_single = [&](Value v) {
+      return v.place == Value::Place::column && v.index >= gathered_ && v.index < given_columns_ && reads[v.index] == 1;
+    };
+    auto const is_of_one = [&](Written const& step) {
+      bool const a = is_single(step.a), b = is_single(step.b);
+      bool const scalars = (a || step.a.place != Value::Place::column) && (b || step.b.place != Value::Place::column);
+      if (!needs.column[step.to.index] || step.operands != 2 || a == b || !scalars) return false;
+      return step.instruction == Instruction::add || step.instruction == Instruction::multiply ||
+             (step.instruction == Instruction::subtract && b);
+    };
+    auto const others = std::stable_partition(steps_.begin(), steps_.end(), is_of_one);
+    return static_cast<std::size_t>(others - steps_.begin());
+  }
+
   // ---- From values to places ----
 
   /// Which values the results need, and the last step that reads each column.
@@ -303,8 +333,9 @@ class Writer {
   }
 
   /// Steps that no result needs go; columns are used again when nobody reads them any more.
-  FormulaProgram placed(std::vector<Value> const& results) {
+  FormulaProgram placed(std::vector<Value> const& results, std::size_t of_one_column) {
     FormulaProgram program;
+    program.of_one_column = of_one_column;
     program.constants = constants_;
     program.row_inputs = given_rows_;
     program.scalars = constants_.size() + rows_;
@@ -360,14 +391,16 @@ class Writer {
   std::vector<Written> row_steps_, steps_;
   std::vector<std::uint16_t> where_;  // the column of each value
   std::uint32_t columns_ = 0, rows_ = 0, given_columns_ = 0, given_rows_ = 0;
+  std::size_t gathered_;
 };
 
 }  // namespace
 
 FormulaProgram make_program(ExpressionGraph& graph, std::span<Expression const> results,
-                            std::span<std::uint32_t const> columns, std::span<std::uint32_t const> of_row) {
+                            std::span<std::uint32_t const> columns, std::span<std::uint32_t const> of_row,
+                            std::size_t gathered) {
   if (columns.size() > max_columns) throw Error(fmt::format("the formula reads more than {} fields", max_columns));
-  return Writer(graph, columns, of_row).write(results);
+  return Writer(graph, columns, of_row, gathered).write(results);
 }
 
 }  // namespace boltzmann

@@ -51,6 +51,7 @@ struct FormulaProgram {
   std::size_t row_inputs = 0;
   std::vector<Step> row_steps, steps;
   std::vector<Operand> results;
+  std::size_t of_one_column = 0;  ///< steps at the beginning: a given column, which no other step reads, and a scalar
   std::size_t columns = 0, scalars = 0;
   std::shared_ptr<MachineCode const> code;  ///< of the steps; null: they are interpreted
 
@@ -58,8 +59,10 @@ struct FormulaProgram {
 };
 
 /// A program for these expressions. Inputs named in `columns` vary from pair to pair, column k holds columns[k]; those in
-/// `of_row` are the same for all pairs of a row. Error if it needs more columns, scalars or steps than there may be.
+/// `of_row` are the same for all pairs of a row. Columns from `gathered` on may be changed as they are written
+/// (FormulaProgram::of_one_column). Error if it needs more columns, scalars or steps than there may be.
 FormulaProgram make_program(ExpressionGraph& graph, std::span<Expression const> results,
-                            std::span<std::uint32_t const> columns, std::span<std::uint32_t const> of_row);
+                            std::span<std::uint32_t const> columns, std::span<std::uint32_t const> of_row,
+                            std::size_t gathered = max_columns);
 
 }  // namespace boltzmann

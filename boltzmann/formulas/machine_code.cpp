@@ -23,6 +23,7 @@ class CodeWriter : public MachineCode, private Steps {
  public:
   CodeWriter(FormulaProgram const& program, int width, std::optional<GatheredColumns> const& gathered)
       : Steps(32768 + 1024 * (program.steps.size() + program.row_steps.size()), width) {
+    number_packs();
     auto const& steps = program.steps;
     Flow flow(steps, program.columns);
     for (auto const result : program.results) flow.read(result, never);
@@ -48,8 +49,7 @@ class CodeWriter : public MachineCode, private Steps {
     if (has_row) row(program);
     std::size_t const list_begin = getSize();
     bool const has_list = gathered && are_plain(steps) && can_gather(*gathered);
-    if (has_list) list(program, *gathered);
-    number_packs();
+    if (has_list) list_with_numbers(program, *gathered);
     setProtectModeRE();
     auto* const code = const_cast<std::uint8_t*>(getCode());  // a function's pointer points to nothing that is const
     for (std::size_t k = 0; k < pieces_.size(); ++k)
@@ -111,6 +111,18 @@ class CodeWriter : public MachineCode, private Steps {
     return gathered.dimension < static_cast<int>(quad) && blocks_of(gathered).size() <= 3;
   }
 
+  /// With as few registers for values as they get along with: in the others stand numbers and scalars, which a loop would
+  /// read again for each pack.
+  void list_with_numbers(FormulaProgram const& program, GatheredColumns const& gathered) {
+    std::size_t const begin = getSize();
+    for (for_values_ = width_ == 8 ? usual_for_values : fewest_for_values;; ++for_values_) {
+      setSize(begin);
+      to_columns_ = 0;
+      list(program, gathered);
+      if (to_columns_ == 0 || for_values_ >= usual_for_values) break;
+    }
+  }
+
   void list(FormulaProgram const& program, GatheredColumns const& gathered) {
     int const D = gathered.dimension;
     std::size_t const end = program.steps.size();
@@ -135,7 +147,7 @@ class CodeWriter : public MachineCode, private Steps {
     cmp(rdi, rsi);
     jae(done, T_NEAR);
     keep_numbers(program.steps, 0, end);
-    if (registers_ > for_values) keep(Number::least_square, Number::least_square);
+    keep(Number::least_square, Number::least_square);
     keep_scalars(program.steps, 0, end);
     align(16);
     L(loop);
@@ -232,14 +244,9 @@ class CodeWriter : public MachineCode, private Steps {
       else
         vfmadd231pd(reg(square), d, d);
     }
-    if (auto const& least = number_register_[static_cast<std::size_t>(Number::least_square)]) {
-      vmaxpd(reg(square), *least, reg(square));
-    } else {
-      int const r = take();
-      vmovapd(reg(r), number(Number::least_square));
-      vmaxpd(reg(square), reg(r), reg(square));
-      pinned_[static_cast<std::size_t>(r)] = false;
-    }
+    int const least = take();
+    vmaxpd(reg(square), kept(Number::least_square, reg(least)), reg(square));
+    pinned_[static_cast<std::size_t>(least)] = false;
     if (width_ == 8) vcmppd(k2, reg(square), scalar(program.scalars + D), 1);
     for (std::size_t c = 0; c < D; ++c) settle(r[c], flow_->at[c]);
     settle(square, flow_->at[D]);
@@ -265,8 +272,7 @@ class CodeWriter : public MachineCode, private Steps {
     }
     // What does not count is zero.
     Xmm const mask = reg(take()), counted = reg(take());
-    with({flow_->at[D], 0}, [&](auto const& s) { vmovapd(mask, s); });
-    vcmppd(mask, mask, scalar(program.scalars + D), 1);
+    vcmppd(mask, in({flow_->at[D], 0}), scalar(program.scalars + D), 1);
     if (gathered.along) {
       factor = reg(take());
       with(result(0), [&](auto const& x) { vandpd(*factor, mask, x); });

@@ -16,28 +16,33 @@ template <int W>
   return result;
 }
 
-/// f(x, start, sum, rate) for W numbers from the i-th on; `reads` tells whether f asks for x and start as they were,
-/// `sums` whether it keeps a sum. NaN where a number is not finite then, else zero.
+/// f(x, start, sum, rate) for the first W numbers, which then belong to the column no more; `reads` tells whether f asks
+/// for x and start as they were, `sums` whether it keeps a sum. NaN where a number is not finite then, else zero.
 template <bool reads, bool sums, int W, class F>
-[[gnu::always_inline]] inline Pack<double, W> advance_pack(FieldColumn const& column, std::size_t i, F const& f) {
-  Pack<double, W> x = 0.0, sum = 0.0, start = load_pack<W>(column.start + i);
+[[gnu::always_inline]] inline Pack<double, W> advance_pack(FieldColumn& column, F const& f) {
+  Pack<double, W> x = 0.0, sum = 0.0, start = load_pack<W>(column.start);
   if constexpr (reads)
-    for (int lane = 0; lane < W; ++lane) x.native[lane] = column.x[(i + static_cast<std::size_t>(lane)) * column.row];
-  if constexpr (sums) sum = load_pack<W>(column.sum + i);
-  f(x, start, sum, load_apart<W>(column.rate + i * column.rate_step, column.rate_step));
-  store_pack<W>(column.start + i, start);
-  if constexpr (sums) store_pack<W>(column.sum + i, sum);
-  for (int lane = 0; lane < W; ++lane) column.x[(i + static_cast<std::size_t>(lane)) * column.row] = x.native[lane];
+    for (int lane = 0; lane < W; ++lane) x.native[lane] = column.x[static_cast<std::size_t>(lane) * column.row];
+  if constexpr (sums) sum = load_pack<W>(column.sum);
+  f(x, start, sum, load_apart<W>(column.rate, column.rate_step));
+  store_pack<W>(column.start, start);
+  if constexpr (sums) store_pack<W>(column.sum, sum);
+  for (int lane = 0; lane < W; ++lane) column.x[static_cast<std::size_t>(lane) * column.row] = x.native[lane];
+  column.x += W * column.row;
+  column.rate += W * column.rate_step;
+  column.start += W;
+  column.sum += W;
+  column.count -= W;
   return x - x;
 }
 
 template <int W, bool reads, bool sums, class F>
-[[gnu::always_inline]] inline bool advance_column(FieldColumn const& column, F const& f) {
+[[gnu::always_inline]] inline bool advance_column(FieldColumn const& given, F const& f) {
+  FieldColumn column = given;  // of which the compiler knows that no number is stored in it
   Pack<double, W> not_finite = 0.0;
   Pack<double, 1> last = 0.0;
-  std::size_t i = 0;
-  for (; i + W <= column.count; i += W) not_finite += advance_pack<reads, sums, W>(column, i, f);
-  for (; i < column.count; ++i) last += advance_pack<reads, sums, 1>(column, i, f);
+  while (column.count >= W) not_finite += advance_pack<reads, sums, W>(column, f);
+  while (column.count > 0) last += advance_pack<reads, sums, 1>(column, f);
   return !any(not_finite != not_finite) && !any(last != last);
 }
 

@@ -72,8 +72,9 @@ class Maker {
     for (std::uint32_t c = 0; c <= static_cast<std::uint32_t>(dimension_); ++c) columns.push_back(c);
     program.of_q = choose(measured, of_source, columns);
     program.of_p = choose(measured, of_target, rows);
-    program.influence = make_program(graph_, results, columns, rows);
-    program.measure = make_program(graph_, measured, columns, rows);
+    std::size_t const gathered = static_cast<std::size_t>(dimension_) + 1;
+    program.influence = make_program(graph_, results, columns, rows, gathered);
+    program.measure = make_program(graph_, measured, columns, rows, gathered);
     program.velocity_dependent = reads_changing(target_, program.of_p) || reads_changing(source, program.of_q);
     program.numbers = std::make_shared<PairNumbers>(
         PairNumbers{Calculation(graph_, measured), of_target, of_source, next_, program.along, program.has_energy});

@@ -136,7 +136,7 @@ on = "atoms"
 energy = "4*(r^-12 - r^-6) + p.charge*q.charge*exp(-r)/r"
 [[influences]]
 on = "atoms"
-influence = "-0.1*(1 - r/2.5)^2*dot(separation, velocity)*separation/r^2"
+influence = "-0.1*(1.5*p.mass - q.mass)*(1 - r/2.5)^2*dot(separation, velocity)*separation/r^2"
 [[influences]]
 on = "beads"
 by = "atoms"

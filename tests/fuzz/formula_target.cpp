@@ -87,7 +87,7 @@ bool as_a_law(std::string const& text, UnitSystem const& units) try {
     results.push_back(graph.derivative(value.components[0], 3));
     results.push_back(graph.replaced(value.components[0], {{3, graph.number(4)}}));
     std::vector<std::uint32_t> const columns{0, 1, 2, 3, 5}, rows{4, 6};
-    auto program = make_program(graph, results, columns, rows);
+    auto program = make_program(graph, results, columns, rows, 4);
     auto const interpreted = results_of(program);
     program.code = machine_code(program, W);
     static bool const comparable = rounds_once();

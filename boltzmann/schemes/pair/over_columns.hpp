@@ -4,10 +4,12 @@
 
 #include <boltzmann/formulas/evaluate.hpp>
 #include <boltzmann/schemes/pair/formula_kernels.hpp>
+#include <boltzmann/schemes/pair/gather_numbers.hpp>
 
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <vector>
 
 namespace boltzmann::detail {
 
@@ -43,11 +45,11 @@ class ColumnSum {
     for (auto& x : virial_) x = Real(0.0);
   }
 
-  /// The first steps of the program, `leading`, have been done.
+  /// The first steps of the program have been done.
   void add(PairProgram const& law, Workspace<W>& work, std::size_t packs, double cutoff2, Real rounding, double zero_at,
-           std::size_t leading = 0) {
+           std::size_t done = 0) {
     FormulaProgram const& program = pass == Pass::measure ? law.measure : law.influence;
-    run_program<W>(work, program, packs, leading);
+    run_program<W>(work, program, packs, done);
     Real const zero = 0.0;
     double const *result[D + 1], *d[D];
     std::size_t stride[D + 1];
@@ -58,6 +60,7 @@ class ColumnSum {
     }
     for (std::size_t c = 0; c < D; ++c) d[c] = work.column(c);
     double* const square = work.column(D);
+    if (pass == Pass::influence && law.along && stride[0] > 0) return add_along(result[0], d, square, packs, cutoff2);
     for (std::size_t k = 0; k < packs; ++k) {
       auto const valid = load_pack<W>(square + k * W) < cutoff2;
       Real const first = load_pack<W>(result[0] + k * stride[0]);
@@ -123,6 +126,20 @@ class ColumnSum {
   }
 
  private:
+  /// Of an influence on the line of centres. Within a larger function the compiler leaves a sum in memory, for which each
+  /// pack waits.
+  [[gnu::noinline]] void add_along(double const* factor, double const* const* d, double const* square,
+                                   std::size_t packs, double cutoff2) {
+    Real total[D];
+    for (std::size_t c = 0; c < D; ++c) total[c].native = influence_[c].native;
+    for (std::size_t k = 0; k < packs * W; k += W) {
+      auto const valid = load_pack<W>(square + k) < cutoff2;
+      Real const f = load_pack<W>(factor + k);
+      for (std::size_t c = 0; c < D; ++c) total[c] = fused_where(valid, f, load_pack<W>(d[c] + k), total[c]);
+    }
+    for (std::size_t c = 0; c < D; ++c) influence_[c].native = total[c].native;
+  }
+
   Real influence_[D];
   Real energy_ = Real(0.0);
   Real virial_[D * D];
@@ -168,6 +185,75 @@ void gather_separations(double const* rows, std::uint32_t const* entries, std::s
   }
 }
 
+/// Where a gathered number goes: into a column, as number * factor + addend, which rounds at most once.
+struct FieldPlace {
+  double* to = nullptr;
+  double const *factor = nullptr, *addend = nullptr;
+};
+
+/// From the entries of a list, packs of them: numbers `first` to `first + count` of a block of the rows.
+template <int W, std::size_t first, std::size_t count>
+void gather_block(double const* rows, std::uint32_t const* entries, std::size_t packs, FieldPlace const* places) {
+  for (std::size_t k = 0; k < packs * W; k += W)
+    gather_numbers<W, first, count>([&](int lane) { return rows + entries[k + static_cast<std::size_t>(lane)]; },
+                                    [&](std::size_t n, Pack<double, W> x) __attribute__((always_inline)) {
+                                      auto const& [to, factor, addend] = places[n];
+                                      store_pack<W>(to + k, x * load_pack<W>(factor) + load_pack<W>(addend));
+                                    });
+}
+template <int W>
+using GatherBlock = void (*)(double const*, std::uint32_t const*, std::size_t, FieldPlace const*);
+template <int W>
+inline constexpr auto gather_blocks = for_stretches_of_a_block(
+    []<std::size_t first, std::size_t count>() -> GatherBlock<W> { return gather_block<W, first, count>; });
+
+/// Which fields of q are gathered, block by block of its row, and the steps of the program that are done to single fields
+/// meanwhile.
+template <int W>
+class FieldGathering {
+ public:
+  /// Field f stands in column `first_column` + f.
+  FieldGathering(PairProgram const& law, FormulaProgram const& program, std::size_t steps, std::size_t first_column,
+                 Workspace<W>& work) {
+    store_pack<W>(one_, Pack<double, W>(1.0));
+    store_pack<W>(minus_one_, Pack<double, W>(-1.0));
+    store_pack<W>(minus_zero_, Pack<double, W>(-0.0));
+    for (std::size_t f = 0; f < law.of_q.size(); ++f) {
+      std::size_t const offset = static_cast<std::size_t>(law.of_q[f]), number = offset % row_block;
+      if (blocks_.empty() || blocks_.back().which != offset / row_block) {
+        blocks_.push_back({offset / row_block, number, {}, nullptr});
+        for (auto& place : blocks_.back().places) place = {work.nowhere, one_, minus_zero_};
+      }
+      auto& block = blocks_.back();
+      block.places[number] = {work.column(first_column + f), one_, minus_zero_};
+      block.gather = gather_blocks<W>[block.first][number - block.first];
+      for (Step const* step = program.steps.data(); step < program.steps.data() + steps; ++step)
+        for (bool const is_b : {false, true})
+          if (auto const of = is_b ? step->b : step->a; !of.scalar && of.index == first_column + f)
+            block.places[number] = place_of(*step, is_b, work);
+    }
+  }
+  void operator()(double const* rows, std::size_t block_stride, std::uint32_t const* entries, std::size_t packs) const {
+    for (auto const& block : blocks_) block.gather(rows + block.which * block_stride, entries, packs, block.places);
+  }
+
+ private:
+  struct Block {
+    std::size_t which, first;
+    FieldPlace places[row_block];
+    GatherBlock<W> gather;
+  };
+  FieldPlace place_of(Step const& step, bool is_b, Workspace<W>& work) const {
+    double const* const scalar = work.place(is_b ? step.a : step.b);
+    double* const to = work.place(step.to);
+    if (step.instruction == Instruction::multiply) return {to, scalar, minus_zero_};
+    return {to, step.instruction == Instruction::add ? one_ : minus_one_, scalar};  // minus a field
+  }
+
+  alignas(64) double one_[W], minus_one_[W], minus_zero_[W];
+  std::vector<Block> blocks_;
+};
+
 /// The loop for these leading steps.
 template <int W, int D>
 auto gather_with(Step const* steps, std::size_t leading) {
@@ -189,9 +275,13 @@ void formula_over_list(void const* the_law, PairTask const& task, std::size_t be
   std::size_t const blocks = task.source_block_stride;
   MachineCode::List const whole = pass == Pass::influence && program.code ? program.code->list() : nullptr;
   work.set_scalar(program.scalars + D, task.cutoff2);
-  std::size_t const leading = leading_steps<W>(program, D);
-  Step const* const steps = program.steps.data();
+  // The measuring pass runs its program again, for separations that are not those of a list.
+  bool const at_once = pass != Pass::measure || program.of_one_column == 0;
+  std::size_t const of_fields = at_once && !program.code ? program.of_one_column : 0;
+  std::size_t const leading = at_once ? leading_steps<W>(program, D) : 0;
+  Step const* const steps = program.steps.data() + of_fields;
   auto const gather = gather_with<W, D>(steps, leading);
+  FieldGathering<W> const fields_of_q(law, program, of_fields, D + 1, work);
   for (std::size_t i = begin; i < end; ++i) {
     double const* const p = task.target + row_block * i;
     begin_row<W>(law, program, work, [&](std::size_t offset) {
@@ -211,21 +301,8 @@ void formula_over_list(void const* the_law, PairTask const& task, std::size_t be
       std::size_t const left = task.length[i] - from, count = left < block_pairs ? left : block_pairs;
       std::size_t const packs = (count + W - 1) / W;  // entries behind the last one point to no particle
       gather(task.source, j, packs, p, steps, leading, work);
-      // Blocks of q's rows, one after the other; a field of the block at hand gets its column.
-      for (std::size_t f = 0; f < law.of_q.size();) {
-        std::size_t const block = static_cast<std::size_t>(law.of_q[f]) / row_block;
-        std::size_t last = f + 1;
-        while (last < law.of_q.size() && static_cast<std::size_t>(law.of_q[last]) / row_block == block) ++last;
-        for (std::size_t k = 0; k < packs; ++k) {
-          Pack<double, W> q[row_block];
-          transpose_block<W>([&](int lane) { return task.source + j[k * W + static_cast<std::size_t>(lane)]; },
-                             block * blocks, q, row_block);
-          for (std::size_t g = f; g < last; ++g)
-            store_pack<W>(work.column(D + 1 + g) + k * W, q[static_cast<std::size_t>(law.of_q[g]) % row_block]);
-        }
-        f = last;
-      }
-      sum.add(law, work, packs, task.cutoff2, task.rounding, task.zero_at, leading);
+      fields_of_q(task.source, blocks, j, packs);
+      sum.add(law, work, packs, task.cutoff2, task.rounding, task.zero_at, of_fields + leading);
     }
     sum.store(task, task.order ? task.order[i] : i, task.overwrite);
   }

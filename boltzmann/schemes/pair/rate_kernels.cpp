@@ -1,6 +1,7 @@
 // Evaluates the rates of fields, for one instruction set.
 #include <boltzmann/core/kernel_unit.hpp>
 #include <boltzmann/formulas/evaluate.hpp>
+#include <boltzmann/schemes/pair/gather_numbers.hpp>
 #include <boltzmann/schemes/pair/rate_kernels.hpp>
 
 #include <cstddef>
@@ -8,47 +9,55 @@
 namespace boltzmann {
 namespace detail {
 
-/// Fields of `count` particles become columns, block by block of their rows; the last pack is filled up with the first
-/// particle.
+/// Numbers `first` to `first + count` of a block of rows become columns; the last pack is filled up with the first particle.
+template <int W, std::size_t first, std::size_t count>
+void gather_rows(double const* rows, std::size_t stride, std::size_t particles, double* const* to) {
+  auto const pack = [&](std::size_t k, auto const& row) __attribute__((always_inline)) {
+    gather_numbers<W, first, count>(
+        row, [&](std::size_t n, Pack<double, W> x) __attribute__((always_inline)) { store_pack<W>(to[n] + k, x); });
+  };
+  std::size_t k = 0;
+  for (; k + W <= particles; k += W)
+    pack(k, [&](int lane) { return rows + (k + static_cast<std::size_t>(lane)) * stride; });
+  if (k < particles)
+    pack(k, [&](int lane) {
+      std::size_t const i = k + static_cast<std::size_t>(lane);
+      return rows + (i < particles ? i : 0) * stride;
+    });
+}
+template <int W>
+using GatherRows = void (*)(double const*, std::size_t, std::size_t, double* const*);
+template <int W>
+inline constexpr auto gather_rows_of = for_stretches_of_a_block(
+    []<std::size_t first, std::size_t count>() -> GatherRows<W> { return gather_rows<W, first, count>; });
+
+/// Fields of `count` particles become columns, block by block of their rows.
 template <int W>
 void gather_fields(Workspace<W>& work, std::vector<int> const& fields, double const* rows, std::size_t stride,
                    std::size_t count) {
   for (std::size_t f = 0; f < fields.size();) {
     std::size_t const block = static_cast<std::size_t>(fields[f]) / row_block;
-    std::size_t last = f + 1;
-    while (last < fields.size() && static_cast<std::size_t>(fields[last]) / row_block == block) ++last;
-    double const* const first = rows + block * row_block;
-    auto const pack = [&](std::size_t k, auto const& row_of) {
-      Pack<double, W> numbers[row_block];
-      if (last - f == 1) {  // fetched by itself
-        std::size_t const number = static_cast<std::size_t>(fields[f]) % row_block;
-        for (int lane = 0; lane < W; ++lane) numbers[0].native[lane] = row_of(lane)[number];
-        return store_pack<W>(work.column(f) + k, numbers[0]);
-      }
-      transpose_block<W>(row_of, 0, numbers, row_block);
-      for (std::size_t g = f; g < last; ++g)
-        store_pack<W>(work.column(g) + k, numbers[static_cast<std::size_t>(fields[g]) % row_block]);
-    };
-    std::size_t k = 0;
-    for (; k + W <= count; k += W)
-      pack(k, [&](int lane) { return first + (k + static_cast<std::size_t>(lane)) * stride; });
-    if (k < count)
-      pack(k, [&](int lane) {
-        std::size_t const i = k + static_cast<std::size_t>(lane);
-        return first + (i < count ? i : 0) * stride;
-      });
-    f = last;
+    std::size_t const first = static_cast<std::size_t>(fields[f]) % row_block;
+    double* to[row_block] = {work.nowhere, work.nowhere, work.nowhere, work.nowhere};
+    std::size_t end = first;
+    for (; f < fields.size() && static_cast<std::size_t>(fields[f]) / row_block == block; ++f) {
+      std::size_t const number = static_cast<std::size_t>(fields[f]) % row_block;
+      to[number] = work.column(f), end = number + 1;
+    }
+    gather_rows_of<W>[first][end - first - 1](rows + block * row_block, stride, count, to);
   }
 }
 
-/// put(rate, number(k)) for `count` particles, where their rates stand.
-template <class Number, class Put>
-[[gnu::always_inline]] inline void put_rates(double* rate, std::size_t stride, std::size_t count, Number const& number,
-                                             Put const& put) {
+/// Numbers, `step` (1 or 0) apart, are added to the rates of `count` particles, or are them.
+template <int W, bool adds>
+void put_rates(double* rate, std::size_t stride, std::size_t count, double const* numbers, std::size_t step) {
+  std::size_t k = 0;
   if (stride == 1)
-    for (std::size_t k = 0; k < count; ++k) put(rate[k], number(k));
-  else
-    for (std::size_t k = 0; k < count; ++k) put(rate[k * stride], number(k));
+    for (; k + W <= count; k += W) {
+      Pack<double, W> const before = adds ? load_pack<W>(rate + k) : Pack<double, W>(0.0);
+      store_pack<W>(rate + k, before + load_pack<W>(numbers + k * step));
+    }
+  for (; k < count; ++k) rate[k * stride] = (adds ? rate[k * stride] : 0.0) + numbers[k * step];
 }
 
 /// Particles become columns a block at a time; what the program gives is added to the rates, or is them.
@@ -74,16 +83,9 @@ void rates_over_particles(void const* the_law, ExternalTask const& task, std::si
       Operand const operand = program.results[r];
       double const* const result = work.place(operand);
       double* const rate = task.rates.of(law.results[r].rate, law.results[r].component, from - task.first);
-      auto const put = [&](auto const& number) {
-        if (task.store)  // a zero that is added to may be negative
-          put_rates(rate, task.rates.particle, count, number, [](double& to, double x) { to = 0.0 + x; });
-        else
-          put_rates(rate, task.rates.particle, count, number, [](double& to, double x) { to += x; });
-      };
-      if (operand.scalar)
-        put([&](std::size_t) { return result[0]; });
-      else
-        put([&](std::size_t k) { return result[k]; });
+      auto const put =
+          task.store ? put_rates<W, false> : put_rates<W, true>;  // a zero that is added to may be negative
+      put(rate, task.rates.particle, count, result, operand.scalar ? 0 : 1);
     }
   }
 }
