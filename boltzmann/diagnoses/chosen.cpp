@@ -10,22 +10,33 @@
 
 namespace boltzmann {
 
+AnyEnsemble const& ensemble_named(std::vector<AnyEnsemble const*> const& available, std::string const& name) {
+  std::vector<std::string> known;
+  for (auto const* ensemble : available) {
+    if (ensemble->name() == name) return *ensemble;
+    known.push_back(ensemble->name());
+  }
+  throw Error(fmt::format("there is no ensemble '{}'; there are {}{}", name, join(known), did_you_mean(name, known)));
+}
+
 std::vector<std::string> chosen_names(std::vector<AnyEnsemble const*> const& available,
                                       std::vector<std::string> const& names) {
   if (available.empty()) throw Error("a diagnosis needs an ensemble to look at; the simulation has none");
-  std::vector<std::string> known;
-  for (auto const* ensemble : available) known.push_back(ensemble->name());
-  for (auto const& name : names)
-    if (std::find(known.begin(), known.end(), name) == known.end())
-      throw Error(
-          fmt::format("there is no ensemble '{}'; there are {}{}", name, join(known), did_you_mean(name, known)));
-  return names.empty() ? known : names;
+  for (auto const& name : names) ensemble_named(available, name);
+  if (!names.empty()) return names;
+  std::vector<std::string> all;
+  for (auto const* ensemble : available) all.push_back(ensemble->name());
+  return all;
+}
+
+std::size_t index_in(Sample const& sample, std::string const& name) {
+  for (std::size_t e = 0; e < sample.ensembles.size(); ++e)
+    if (sample.ensembles[e]->name() == name) return e;
+  throw Error(fmt::format("a diagnosis looks for ensemble '{}', which is not in the simulation", name));
 }
 
 AnyEnsemble const& ensemble_of(Sample const& sample, std::string const& name) {
-  for (auto const* ensemble : sample.ensembles)
-    if (ensemble->name() == name) return *ensemble;
-  throw Error(fmt::format("a diagnosis looks for ensemble '{}', which is not in the simulation", name));
+  return *sample.ensembles[index_in(sample, name)];
 }
 
 void check_chosen(std::vector<AnyEnsemble const*> const& available, std::vector<std::string> const& names,
@@ -78,6 +89,13 @@ std::vector<std::string> split_names(std::string const& text) {
     at = end + 1;
   }
   return names;
+}
+
+std::vector<Column> along_axes(std::string const& what, int axes, Dimension dimension) {
+  std::vector<Column> columns;
+  columns.reserve(static_cast<std::size_t>(axes));
+  for (int a = 0; a < axes; ++a) columns.push_back({what + " " + "xyz"[a], dimension});
+  return columns;
 }
 
 std::string labelled(std::string const& label, std::string const& what) {

@@ -11,10 +11,13 @@
 
 namespace boltzmann {
 
+/// Error that lists the names there are.
+AnyEnsemble const& ensemble_named(std::vector<AnyEnsemble const*> const& available, std::string const& name);
 /// The names, all ensembles' if there are none. Error if one is not there, or there is nobody to look at.
 std::vector<std::string> chosen_names(std::vector<AnyEnsemble const*> const& available,
                                       std::vector<std::string> const& names);
-/// Error if it is not in the simulation any more.
+/// Its place in the sample. Error if it is not in the simulation any more.
+std::size_t index_in(Sample const& sample, std::string const& name);
 AnyEnsemble const& ensemble_of(Sample const& sample, std::string const& name);
 
 /// Numbers of particles of one ensemble: of the one that is named, or that there is. Error if there are several, or one has
@@ -31,6 +34,8 @@ std::vector<std::uint32_t> members_of(AnyEnsemble const& ensemble, std::span<std
 
 /// "a, b" -> {"a", "b"}.
 std::vector<std::string> split_names(std::string const& text);
+/// "momentum x", "momentum y", ...
+std::vector<Column> along_axes(std::string const& what, int axes, Dimension dimension);
 /// "Na Cl g peak": the column `what` of a diagnosis with this label, which may be empty.
 std::string labelled(std::string const& label, std::string const& what);
 /// "radial-distribution-Na-Cl": the file of a diagnosis with this label, of letters, digits, '-', '_' and '.'.

@@ -60,7 +60,7 @@ class Diagnosis {
   virtual bool by_number() const { return false; }
   /// Error if it can't be measured in such a box.
   virtual void check(Box const&) const {}
-  /// Functions that it gathers from all looks so far: files at the end of a run, and the drawing `curve`.
+  /// Functions that it gathers from all looks so far: files at the end of a run, and the drawing `curves`.
   virtual std::vector<GatheredTable> tables() const { return {}; }
   /// What a run says of it at its end, a line each.
   virtual std::vector<std::string> report(UnitSystem const&) const { return {}; }

@@ -29,9 +29,6 @@
 namespace boltzmann {
 namespace {
 
-using instruments::dimension_of;
-using instruments::ensemble_named;
-
 std::unique_ptr<Diagnosis> make_heat_flux(DiagnosisParameters const& parameters) {
   int const axis = parameters.axis.empty() ? dimension_of(parameters) - 1 : parameters.axis[0] - 'x';
   return std::make_unique<HeatFlux>(parameters.available,

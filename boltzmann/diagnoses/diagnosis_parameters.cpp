@@ -1,7 +1,13 @@
 // The members of DiagnosisParameters with their keys.
+#include <boltzmann/core/error.hpp>
 #include <boltzmann/diagnoses/diagnosis_parameters.hpp>
 
 namespace boltzmann {
+
+int dimension_of(DiagnosisParameters const& parameters) {
+  if (parameters.available.empty()) throw Error("a diagnosis needs an ensemble to look at; the simulation has none");
+  return parameters.available.front()->dimension();
+}
 
 OptionTable const& diagnosis_options() {  // long: a table, a row for each key
   using namespace option;

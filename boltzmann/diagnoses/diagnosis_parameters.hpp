@@ -72,6 +72,9 @@ struct DiagnosisParameters {
   double far = std::numeric_limits<double>::infinity();  ///< shock: where it ends, or a margin before the driven end
 };
 
+/// Of the space that it looks at. Error if there is no ensemble.
+int dimension_of(DiagnosisParameters const& parameters);
+
 /// All members that a user can set. Which of them a kind looks at, and what they mean there, is in
 /// DiagnosisKind::options.
 OptionTable const& diagnosis_options();

@@ -16,32 +16,26 @@ class GroupDiagnosis : public Diagnosis {
  public:
   explicit GroupDiagnosis(DiagnosisParameters const& parameters)
       : dimension_(dimension_of(parameters)),
-        names_(parameters.ensembles.empty() ? names_of(parameters.available) : parameters.ensembles),
+        names_(chosen_names(parameters.available, parameters.ensembles)),
         label_(parameters.label),
         particles_(parameters.particles),
         similar_(parameters.similar_velocity),
         tolerance_(parameters.tolerance) {
     if (!particles_.empty() && similar_)
       throw Error("a group is given by particle numbers or by a velocity, not by both");
-    if ((!particles_.empty() || !label_.empty()) && names_.size() != 1)
+    check_chosen(parameters.available, names_, particles_);
+    if (!label_.empty() && names_.size() != 1)
       throw Error(fmt::format("a group of chosen particles belongs to one ensemble; say which of {}", join(names_)));
     if (!(tolerance_ >= 0))
       throw Error(fmt::format("the tolerance of a group must not be negative, it is {}", tolerance_));
-    for (auto const& name : names_) {
-      AnyEnsemble const& ensemble = ensemble_named(parameters.available, name);
-      for (std::uint32_t const i : particles_)
-        if (i >= ensemble.size())
-          throw Error(fmt::format("ensemble '{}' has {} particles, numbered from 0; there is no particle {}", name,
-                                  ensemble.size(), i));
-      prefixes_.push_back(label_.empty() ? name : label_);
-    }
+    for (auto const& name : names_) prefixes_.push_back(label_.empty() ? name : label_);
   }
 
   std::vector<Column> columns() const final {
     std::vector<Column> columns;
     for (std::size_t g = 0; g < prefixes_.size(); ++g)
       for (auto const& column : columns_of_group(g))
-        columns.push_back({prefixed(prefixes_[g], column.name), column.dimension});
+        columns.push_back({labelled(prefixes_[g], column.name), column.dimension});
     return columns;
   }
 
@@ -98,7 +92,7 @@ class GroupDiagnosis : public Diagnosis {
   void choose_similar(Sample const& sample) {
     std::size_t found = 0;
     for (auto const& name : names_) {
-      groups_.push_back(similar_particles(*sample.ensembles[index_in(sample, name)], *similar_, tolerance_));
+      groups_.push_back(similar_particles(ensemble_of(sample, name), *similar_, tolerance_));
       found += groups_.back().size();
     }
     if (found > 0) return;
@@ -150,7 +144,7 @@ class ExtremesDiagnosis final : public GroupDiagnosis {
  public:
   explicit ExtremesDiagnosis(DiagnosisParameters const& parameters)
       : GroupDiagnosis(parameters), units_(parameters.units) {
-    auto const names = parameters.ensembles.empty() ? names_of(parameters.available) : parameters.ensembles;
+    auto const names = chosen_names(parameters.available, parameters.ensembles);
     for (auto const& name : names)
       meanings_.push_back(quantity_meaning(ensemble_named(parameters.available, name), parameters.quantity, &units_));
   }

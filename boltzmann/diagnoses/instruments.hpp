@@ -1,23 +1,12 @@
-// Instruments: what the catalogue's table makes of parameters, and how instruments look up names. Private to this room.
+// Instruments: what the catalogue's table makes of parameters. Private to this room.
 #pragma once
 
+#include <boltzmann/diagnoses/chosen.hpp>
 #include <boltzmann/diagnoses/diagnosis_parameters.hpp>
 
-#include <cstddef>
 #include <memory>
-#include <string>
-#include <vector>
 
 namespace boltzmann::instruments {
-
-std::vector<std::string> names_of(std::vector<AnyEnsemble const*> const& ensembles);
-/// Error that lists the names there are.
-AnyEnsemble const& ensemble_named(std::vector<AnyEnsemble const*> const& ensembles, std::string const& name);
-std::size_t index_in(Sample const& sample, std::string const& name);
-/// "momentum x", "momentum y", ...
-std::vector<Column> along_axes(std::string const& what, int axes, Dimension dimension);
-std::string prefixed(std::string const& prefix, std::string const& what);
-int dimension_of(DiagnosisParameters const& parameters);
 
 /// Makes one of a kind. Error if the parameters are wrong for it.
 using Maker = std::unique_ptr<Diagnosis>(DiagnosisParameters const& parameters);

@@ -20,14 +20,14 @@ class SystemDiagnosis : public Diagnosis {
   std::vector<Column> columns() const final {
     std::vector<Column> columns;
     for (auto const& name : names_)
-      for (auto const& column : columns_of_one()) columns.push_back({prefixed(name, column.name), column.dimension});
+      for (auto const& column : columns_of_one()) columns.push_back({labelled(name, column.name), column.dimension});
     if (names_.empty()) columns = columns_of_one();
     for (auto const& column : columns_of_all()) columns.push_back(column);
     return columns;
   }
 
   void measure(Sample const& sample, std::vector<double>& values) final {
-    for (auto const& name : names_) measure_one(*sample.ensembles[index_in(sample, name)], sample, values);
+    for (auto const& name : names_) measure_one(ensemble_of(sample, name), sample, values);
     if (names_.empty()) measure_one(sample.ensembles, sample, values);
     measure_all(sample, values);
   }

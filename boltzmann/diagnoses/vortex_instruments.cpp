@@ -2,6 +2,7 @@
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/diagnoses/system_diagnosis.hpp>
 #include <boltzmann/diagnoses/vortex_measures.hpp>
+#include <boltzmann/schemes/flow_classes.hpp>
 #include <boltzmann/schemes/vortices/vortex_flow.hpp>
 
 #include <fmt/format.h>
@@ -19,7 +20,7 @@ class VortexInvariants final : public SystemDiagnosis {
       if (auto const& named = ensemble_named(all, name); !has_vorticity(named))
         throw Error(fmt::format("'{}' is of class {}, which has no vorticity", name, named.class_name()));
     if (std::none_of(all.begin(), all.end(), [](auto const* one) { return has_vorticity(*one); }))
-      throw Error("no ensemble has vorticity; classes Vortex, Inviscid, Viscous and Diffusive do");
+      throw Error(fmt::format("no ensemble has vorticity; classes {} have", classes_with_vorticity));
   }
   std::vector<Column> columns_of_one() const override {
     using namespace dimensions;

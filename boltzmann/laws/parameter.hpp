@@ -11,7 +11,6 @@
 
 namespace boltzmann {
 
-/// What a shipped law is: `static constexpr LawText text{...}` in its struct.
 /// A law as somebody would type it, in the words of FormulaLaw: an energy if it has one, else an influence; empty: it
 /// can't be typed.
 struct TypedLawText {
@@ -24,6 +23,7 @@ struct TypedLawText {
       : in{in_1d, in_2d, in_3d} {}
 };
 
+/// What a shipped law is: `static constexpr LawText text{...}` in its struct.
 struct LawText {
   std::string_view name;     ///< the word in scenarios: "lennard-jones"
   std::string_view doc;      ///< one line
