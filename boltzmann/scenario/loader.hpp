@@ -27,9 +27,9 @@ class Loader {
         section_(table, "load", reading.context),
         place_(table.place) {}
 
-  /// Reads the table. `number` is what the ensemble says (0: what can't be read); afterwards count() particles are to
-  /// be made.
-  bool read(std::optional<std::size_t> number, Place const& number_place);
+  /// Reads the table. `number` is what the ensemble says (0: what can't be read, unless it says that there is `nobody`);
+  /// afterwards count() particles are to be made.
+  bool read(std::optional<std::size_t> number, Place const& number_place, bool nobody);
   std::size_t count() const { return count_; }
   /// The space (length, area, volume) that each particle has, of lattices; nothing otherwise.
   std::optional<double> volume() const { return volume_; }

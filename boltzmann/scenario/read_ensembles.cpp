@@ -52,6 +52,8 @@ class EnsembleReader {
   std::unique_ptr<AnyEnsemble> read_more(ReadEnsemble const& of, std::string const& name) {
     addition_ = true;
     read_options(section_, ensemble_options().only({{"number"}}), &options_, {.dimension = reading_.dimension});
+    if (Item const* item = section_.item("number"); item && item->is(Item::Kind::integer) && item->integer == 0)
+      mistake(item->place, "number: 0 adds nobody; 1 or more are needed");
     options_.name = name;
     ensemble_.name = of.name;
     kind_ = of.kind;
@@ -134,8 +136,9 @@ class EnsembleReader {
       return mistake(item->place,
                      fmt::format("load: a table is needed, {{ kind = \"block\", ... }}, not {}", describe(*item)));
     loader_.emplace(*item, ensemble_.name, reading_, variant_);
-    loadable_ =
-        loader_->read(section_.has("number") ? std::optional(options_.number) : std::nullopt, section_.place("number"));
+    Item const* const number = section_.item("number");
+    loadable_ = loader_->read(number ? std::optional(options_.number) : std::nullopt, section_.place("number"),
+                              number && number->is(Item::Kind::integer) && number->integer == 0);
     if (loadable_) count_ = loader_->count();
   }
 

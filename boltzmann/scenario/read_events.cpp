@@ -6,6 +6,7 @@
 #include <boltzmann/scenario/read_options.hpp>
 #include <boltzmann/scenario/reading.hpp>
 #include <boltzmann/scenario/tables.hpp>
+#include <boltzmann/schemes/mesh/p3m_scheme.hpp>
 #include <boltzmann/simulation/velocity_changes.hpp>
 
 #include <fmt/format.h>
@@ -146,6 +147,13 @@ std::optional<Addition> read_added(Item const& add, Section& section, std::size_
     return refuse(on->place, fmt::format("particles of '{}' are joined by bonds, and what is added has none; make an "
                                          "ensemble of those",
                                          to->name));
+  bool const nobody = std::all_of(reading.ensembles.begin(), reading.ensembles.end(),
+                                  [](ReadEnsemble const& one) { return !one.particles || one.particles->size() == 0; });
+  if (nobody && std::any_of(reading.result->schemes.begin(), reading.result->schemes.end(),
+                            [](auto const& one) { return dynamic_cast<P3MScheme const*>(one.get()) != nullptr; }))
+    return refuse(on->place,
+                  "nobody is there before, by whom the accuracy of [mesh] could choose it; say cells and "
+                  "assignment instead");
   Addition all{to->particles, {}};
   for (std::int64_t k = 0; k < times; ++k) {
     auto particles = read_addition(add, *to, fmt::format("{}, event {}, time {}", to->name, number, k), reading);

@@ -90,7 +90,7 @@ Loader::Way const& Loader::way_of(std::string_view kind) {
   return *found;
 }
 
-bool Loader::read(std::optional<std::size_t> number, Place const& number_place) {
+bool Loader::read(std::optional<std::size_t> number, Place const& number_place, bool nobody) {
   std::size_t const before = reading_.context.mistakes.count();
   Item const* word = section_.need("kind", "kind = \"block\"");
   if (!word) return false;
@@ -108,6 +108,13 @@ bool Loader::read(std::optional<std::size_t> number, Place const& number_place) 
   double own_count = way_->read ? (this->*way_->read)() : 0;
   section_.finish();
   if (reading_.context.mistakes.count() != before) return false;
+  if (nobody) {
+    if (!kind_->counted)
+      reading_.mistake(number_place,
+                       "number: particles that events will add, and none before, need a load without "
+                       "places of its own, e.g. load = { kind = \"random\" }");
+    return kind_->counted;
+  }
   if (kind_->counted && own_count == 0) {
     if (!number) {
       reading_.mistake(place_, fmt::format("load \"{}\" needs 'number' in its ensemble, e.g. number = 1000", *name));

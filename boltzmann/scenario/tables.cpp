@@ -184,8 +184,8 @@ OptionTable make_ensemble_options() {  // long: a table, a row for each key
       "`\"leap-frog\"` for classical particles, `\"rk4\"` for those that a flow carries");
   all.add_said("load", "a table, `{ kind = \"block\", ... }`",
                "where the particles are: a [loader](#load) (`bzm list loaders`)");
-  all.add("number", &E::number, whole(1, std::numeric_limits<double>::infinity()),
-          "how many, for loaders that don't know", "what the loader knows");
+  all.add("number", &E::number, whole(0, std::numeric_limits<double>::infinity()),
+          "how many, for loaders that don't know; 0: [events](ensembles.md#events) add them", "what the loader knows");
   all.add("molecule", &E::molecule, whole(1, 4e9),
           "particles that make a molecule, one behind the other: numbers of `bonds`, `angles` and `dihedrals` are "
           "those within one, and hold for all",

@@ -10,6 +10,7 @@
 #include <boltzmann/scenario/scenario.hpp>
 #include <boltzmann/simulation/conserved.hpp>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <tests/message.hpp>
 #include <tests/seed.hpp>
@@ -315,6 +316,24 @@ std::vector<Growing> growing() {
        comes("a",
              "velocity = [-1], number = 1, load = { kind = \"random\", low = [45], high = [58], minimum_distance = "
              "1.2 }")},
+      {"nobody at the start",
+       space("[0, 0]", "[12, 12]", "periodic") +
+           ensemble("a", "Newton", "number = 0\nload = { kind = \"random\" }\ntemperature = 1\n") + argon,
+       comes("a",
+             "number = 4, temperature = 1, load = { kind = \"random\", minimum_distance = 1.2, low = [1, 0], high = "
+             "[11, 6] }")},
+      {"no charges at the start",
+       space("[0, 0]", "[12, 12]", "periodic", "") +
+           "[mesh]\nlaw = \"coulomb\"\nk = 1\nbackground = true\ncells = 16\n" +
+           ensemble("a", "Coulomb", "charge = 1\nnumber = 0\nload = { kind = \"random\" }\n"),
+       comes("a", "number = 40, temperature = 1, load = { kind = \"random\" }"), 1e-6},
+      {"no gas at the start",
+       space("[0, 0]", "[6, 6]", "periodic", "") + "[smooth]\nweight = \"wendland\"\n" +
+           ensemble(
+               "a", "Smooth",
+               "number = 0\nload = { kind = \"random\" }\nrange = 1.2\nmass = 0.25\nspecific_energy = 2\nvelocity = "
+               "[0, 0]\nmaterial = { kind = \"ideal-gas\", gamma = 1.4 }\n"),
+       comes("a", "number = 80, mass = 0.25, load = { kind = \"random\", minimum_distance = 0.4 }")},
       {"dissipative",
        space("[0, 0]", "[12, 12]", "open") +
            ensemble("a", "Newton",
@@ -453,6 +472,17 @@ TEST(Ensembles, MistakesAreToldInOneLine) {
   expect("[[events]]\nat = 1\non = \"a\"\nadd = 3\n", {"add: a table"});
   expect("[[events]]\nat = 1\non = \"a\"\nadd = { velocity = [1, 0] }\n", {"add has no 'load'"});
   expect("[[events]]\nat = 1\non = \"a\"\nadd = { load = { kind = \"random\" } }\n", {"needs 'number'"});
+  expect("[[events]]\nat = 1\non = \"a\"\nadd = { number = 0, load = { kind = \"random\" } }\n", {"0 adds nobody"});
+  auto const first = [](std::string const& mesh, std::string const& load) {
+    auto const lines = test::mistakes_of(space("[0, 0, 0]", "[9, 9, 9]", "periodic") +
+                                         "[mesh]\nlaw = \"coulomb\"\nk = 1\nbackground = true\n" + mesh +
+                                         ensemble("a", "Coulomb", "charge = 1\nnumber = 0\nload = { " + load + " }\n") +
+                                         comes("a", "load = { kind = \"positions\", positions = [[1, 1, 1]] }"));
+    return lines.size() == 1 ? lines[0] : fmt::format("{} lines", lines.size());
+  };
+  EXPECT_NE(first("accuracy = 1e-3\n", "kind = \"random\"").find("nobody is there before"), std::string::npos);
+  EXPECT_NE(first("cells = 8\n", "kind = \"fill\", spacing = 1").find("without places of its own"), std::string::npos);
+  EXPECT_EQ(first("cells = 8\n", "kind = \"quiet\""), "0 lines");
   expect(added + ", set = [{ particles = [0], freeze = true }] }\n", {"freeze: particles that are added"});
   expect("[[diagnoses]]\nkind = \"mean-square-displacement\"\n" + added + " }\n", {"come and go"});
   expect("[[events]]\nat = -1\nscale = 2\n", {"at", "positive"});
