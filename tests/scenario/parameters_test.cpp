@@ -388,7 +388,7 @@ void collect(Item const& item, std::string const& path, std::vector<std::string>
     values.push_back(path);
 }
 
-TEST_P(Shipped, EveryValueIsAParameter) {
+TEST_P(Shipped, EveryValueIsAParameterAndTheOutlineIsThatOfTheSimulation) {
   std::string const path = find_scenario(GetParam());
   Mistakes mistakes(path);
   std::vector<std::string> written;
@@ -399,6 +399,15 @@ TEST_P(Shipped, EveryValueIsAParameter) {
   std::vector<std::string> read;
   for (auto const& parameter : scenario->parameters) read.push_back(parameter.path);
   EXPECT_EQ(read.size(), written.size() + seed) << testing::PrintToString(written) << testing::PrintToString(read);
+
+  auto const outline = outline_scenario(file_text(path), path);
+  EXPECT_EQ(outline.title, scenario->title);
+  EXPECT_EQ(outline.description, scenario->description);
+  EXPECT_EQ(outline.dimension, scenario->ensembles.front()->dimension());
+  std::size_t count = 0;
+  for (auto const& ensemble : scenario->ensembles) count += ensemble->size();
+  EXPECT_EQ(outline.particles.value_or(count), count);
+  EXPECT_EQ(outline.steps.value_or(static_cast<double>(scenario->steps)), static_cast<double>(scenario->steps));
 }
 
 TEST_P(Shipped, NumbersOutOfTheirLimitsAreRefused) {
@@ -428,19 +437,6 @@ TEST_P(Shipped, NumbersOutOfTheirLimitsAreRefused) {
     }
   }
   EXPECT_GT(tried, 2);
-}
-
-TEST_P(Shipped, OutlineIsThatOfTheSimulation) {
-  std::string const path = find_scenario(GetParam());
-  auto const outline = outline_scenario(file_text(path), path);
-  auto const scenario = load_scenario(path);
-  EXPECT_EQ(outline.title, scenario->title);
-  EXPECT_EQ(outline.description, scenario->description);
-  EXPECT_EQ(outline.dimension, scenario->ensembles.front()->dimension());
-  std::size_t count = 0;
-  for (auto const& ensemble : scenario->ensembles) count += ensemble->size();
-  EXPECT_EQ(outline.particles.value_or(count), count);
-  EXPECT_EQ(outline.steps.value_or(static_cast<double>(scenario->steps)), static_cast<double>(scenario->steps));
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Shipped, testing::ValuesIn(shipped_scenarios()), [](auto const& info) {
