@@ -51,13 +51,13 @@ void gather_fields(Workspace<W>& work, std::vector<int> const& fields, double co
 /// Numbers, `step` (1 or 0) apart, are added to the rates of `count` particles, or are them.
 template <int W, bool adds>
 void put_rates(double* rate, std::size_t stride, std::size_t count, double const* numbers, std::size_t step) {
-  std::size_t k = 0;
+  std::size_t k = 0, n = 0;
   if (stride == 1)
-    for (; k + W <= count; k += W) {
+    for (; k + W <= count; k += W, n += W * step) {
       Pack<double, W> const before = adds ? load_pack<W>(rate + k) : Pack<double, W>(0.0);
-      store_pack<W>(rate + k, before + load_pack<W>(numbers + k * step));
+      store_pack<W>(rate + k, before + load_pack<W>(numbers + n));
     }
-  for (; k < count; ++k) rate[k * stride] = (adds ? rate[k * stride] : 0.0) + numbers[k * step];
+  for (; k < count; ++k, n += step) rate[k * stride] = (adds ? rate[k * stride] : 0.0) + numbers[n];
 }
 
 /// Particles become columns a block at a time; what the program gives is added to the rates, or is them.
