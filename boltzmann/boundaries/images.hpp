@@ -58,6 +58,15 @@ class Images {
   int most(int axis, double reach) const;
   /// Whether there can be such an image within `reach` of the box; there is none beyond a wall that was opened.
   bool exists(Turns const& turns, double reach) const;
+  /// From which turns to which along this axis images of a coordinate are within `reach` of the box: most have none. Not
+  /// of a sheared box.
+  struct Range {
+    int first = 0, last = 0;
+  };
+  Range turns_within(int axis, double reach, double x) const {
+    bool const inside = x > edges_[axis] + reach && x < edges_[3 + axis] - reach;
+    return inside ? Range{} : turns_near_end(axis, reach, x);
+  }
   /// The coordinate of an image, by the turns along this axis alone.
   double at(int axis, int turns, double x) const;
   /// And by all turns.
@@ -76,6 +85,7 @@ class Images {
     return box_->boundary(axis) == Boundary::mirror && box_->walled(axis, end);
   }
 
+  Range turns_near_end(int axis, double reach, double x) const;
   template <class Function>
   void each_sheared(double const* x, double reach, Function const& function) const;
 
@@ -93,36 +103,26 @@ inline double Images::at(int axis, int turns, double x) const {
 template <class Function>
 void Images::each(double const* x, double reach, Function const& function) const {
   if (box_->sheared()) return each_sheared(x, reach, function);
-  // Along each axis from which turns to which images are near enough: most particles have none.
-  Turns first{}, last{}, turns{};
+  std::array<Range, 3> ranges;
+  Turns turns{};
   std::array<double, 3> position{};
   int const dimension = box_->dimension();
   bool any = false;
   for (int a = 0; a < dimension; ++a) {
     position[a] = x[a];
-    bool const near_low = x[a] <= edges_[a] + reach, near_high = x[a] >= edges_[3 + a] - reach;
-    if (!near_low && !near_high) continue;
-    int const most = this->most(a, reach);
-    auto const is_near = [&](int n) {
-      double const there = at(a, n, x[a]);
-      return there >= edges_[a] - reach && there <= edges_[3 + a] + reach;
-    };
-    if (box_->periodic(a) || (near_low && mirrors(a, Box::End::low)))
-      for (first[a] = -most; first[a] < 0 && !is_near(first[a]);) ++first[a];
-    if (box_->periodic(a) || (near_high && mirrors(a, Box::End::high)))
-      for (last[a] = most; last[a] > 0 && !is_near(last[a]);) --last[a];
-    any = any || first[a] < 0 || last[a] > 0;
+    ranges[a] = turns_within(a, reach, x[a]);
+    any = any || ranges[a].first != ranges[a].last;
   }
   if (!any) return function(turns, position);
   auto const turn = [&](int a, int n) {
     turns[a] = n;
     if (a < dimension) position[a] = at(a, n, x[a]);
   };
-  for (int k = first[2]; k <= last[2]; ++k) {
+  for (int k = ranges[2].first; k <= ranges[2].last; ++k) {
     turn(2, k);
-    for (int j = first[1]; j <= last[1]; ++j) {
+    for (int j = ranges[1].first; j <= ranges[1].last; ++j) {
       turn(1, j);
-      for (int i = first[0]; i <= last[0]; ++i) {
+      for (int i = ranges[0].first; i <= ranges[0].last; ++i) {
         turn(0, i);
         function(turns, position);
       }

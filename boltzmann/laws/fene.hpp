@@ -15,6 +15,7 @@ namespace boltzmann {
 /// 5057 (1990), have stiffness 30 and max_length 1.5 beside a repulsion that keeps beads apart.
 struct Fene {
   static constexpr Symmetry symmetry = Symmetry::antisymmetric;
+  static constexpr bool positions_alone = true;
 
   double stiffness;
   double max_length;

@@ -9,6 +9,7 @@ namespace boltzmann {
 /// phi(r) = depth [(r0/r)^12 - 2 (r0/r)^6]: minimum -depth at r0. (sigma = r0 / 2^(1/6).)
 struct LennardJones {
   static constexpr Symmetry symmetry = Symmetry::antisymmetric;
+  static constexpr bool positions_alone = true;
 
   double depth;
   double r0;

@@ -11,6 +11,7 @@ namespace boltzmann {
 /// one place don't push each other: they have no direction.
 struct Morse {
   static constexpr Symmetry symmetry = Symmetry::antisymmetric;
+  static constexpr bool positions_alone = true;
 
   double depth;
   double r0;

@@ -12,6 +12,7 @@ namespace boltzmann {
 /// place don't push each other: they have no direction.
 struct Rydberg {
   static constexpr Symmetry symmetry = Symmetry::antisymmetric;
+  static constexpr bool positions_alone = true;
 
   double depth;
   double r0;

@@ -11,6 +11,7 @@ namespace boltzmann {
 /// the repulsion). Two particles at one place don't push each other: they have no direction.
 struct Soft {
   static constexpr Symmetry symmetry = Symmetry::antisymmetric;
+  static constexpr bool positions_alone = true;
 
   double repulsion;
   double range;

@@ -11,6 +11,7 @@ namespace boltzmann {
 /// each other: they have no direction.
 struct Spring {
   static constexpr Symmetry symmetry = Symmetry::antisymmetric;
+  static constexpr bool positions_alone = true;
 
   double stiffness;
   double rest_length = 0;

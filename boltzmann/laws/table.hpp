@@ -58,6 +58,7 @@ struct TableError {
 class Table {
  public:
   static constexpr Symmetry symmetry = Symmetry::antisymmetric;
+  static constexpr bool positions_alone = true;
   using Energy = std::function<double(double)>;
 
   /// U(r) for 0 <= first <= r <= last; it must be finite there. (A first distance below a thousandth of the last one

@@ -39,27 +39,22 @@ class Numbers {
 
 struct Interval {
   double low, high;
-  double distance(Interval const& other) const { return std::max({0.0, low - other.high, other.low - high}); }
+  double distance(Interval const& other) const { return std::max(std::max(0.0, low - other.high), other.low - high); }
   /// Of the point of the other one that is furthest away.
-  double furthest(Interval const& other) const { return std::max({0.0, low - other.low, other.high - high}); }
+  double furthest(Interval const& other) const { return std::max(std::max(0.0, low - other.low), other.high - high); }
 };
 /// Of space along the axes that tell units apart: the second and the third one, in 1D the first.
 using Place = std::array<Interval, 2>;
 
 double distance2(Place const& a, Place const& b) {
-  double square = 0;
-  for (int n = 0; n < 2; ++n) square += a[n].distance(b[n]) * a[n].distance(b[n]);
-  return square;
+  double const first = a[0].distance(b[0]), second = a[1].distance(b[1]);
+  return first * first + second * second;
 }
 
-/// Of a position, which is told apart along these of its axes.
-double distance2(Place const& a, std::array<int, 2> const& axes, int dimension, double const* x) {
-  double square = 0;
-  for (int n = 0; n < 2 && axes[n] < dimension; ++n) {
-    double const out = a[n].distance({x[axes[n]], x[axes[n]]});
-    square += out * out;
-  }
-  return square;
+/// Of a position, three numbers, which is told apart along these of its axes.
+double distance2(Place const& a, std::array<int, 2> const& axes, double const* x) {
+  double const first = x[axes[0]], second = x[axes[1]];
+  return distance2(a, {Interval{first, first}, Interval{second, second}});
 }
 
 double furthest2(Place const& a, Place const& b) {
@@ -160,10 +155,7 @@ struct Neighbourhood::Sorting {
   std::array<int, 2> axes() const { return dimension == 1 ? std::array{0, 1} : std::array{1, 2}; }
   std::int64_t along(int n) const { return axes()[n] < dimension ? grid.count[axes()[n]] : 1; }
   std::size_t units() const { return static_cast<std::size_t>(along(0) * along(1)); }
-  std::size_t unit_of(double const* x) const {
-    std::size_t const cell = grid.cell_of(x);
-    return dimension == 1 ? cell : cell / static_cast<std::size_t>(grid.count[0]);
-  }
+  std::size_t cells_of_unit() const { return dimension == 1 ? 1 : static_cast<std::size_t>(grid.count[0]); }
   /// The cell along an axis, as it is in space.
   std::int64_t unfolded(int axis, std::int64_t folded) const {
     std::int64_t const n = grid.count[axis], lowest = grid.along(axis, extents.rows.low[axis]);
@@ -221,22 +213,27 @@ void Neighbourhood::agree_on_extents(std::vector<Sorting>& all, double reach) {
     one.references = one.copy->references_of(one.own);
     one.dimension = box_->dimension();
     Images const images(*box_);
-    auto const take = [&](Bounds& extent, double const* x) {
-      for (int a = 0; a < one.dimension; ++a)
-        extent.low[a] = std::min(extent.low[a], x[a]), extent.high[a] = std::max(extent.high[a], x[a]);
-    };
-    for (std::size_t n = 0; n < one.own.size(); ++n) {
-      double const* const x = one.references.data() + n * static_cast<std::size_t>(one.dimension);
-      take(one.extents.rows, x);
-      images.each(x, reach, [&](Turns const& turns, auto const& at) {
-        if (turns == Turns{}) return;
-        take(one.extents.images, at.data());
-        ++one.extents.count;
-      });
+    auto const D = static_cast<std::size_t>(one.dimension);
+    std::vector<double> with_images(one.own.size(), 1.0);  // how many each row is then
+    for (std::size_t a = 0; a < D; ++a) {
+      int const axis = static_cast<int>(a);
+      Interval rows{infinite, -infinite}, all_images = rows;
+      auto const take = [](Interval& in, double x) { in.low = std::min(in.low, x), in.high = std::max(in.high, x); };
+      double const* x = one.references.data() + a;
+      for (double& count : with_images) {
+        take(rows, *x);
+        if (auto const [first, last] = images.turns_within(axis, reach, *x); first != last) {
+          take(all_images, images.at(axis, first, *x));
+          take(all_images, images.at(axis, last, *x));
+          count *= last - first + 1;
+        }
+        x += D;
+      }
+      one.extents.rows.low[a] = rows.low, one.extents.rows.high[a] = rows.high;
+      one.extents.images.low[a] = std::min(rows.low, all_images.low);
+      one.extents.images.high[a] = std::max(rows.high, all_images.high);
     }
-    if (one.own.empty()) continue;
-    take(one.extents.images, one.extents.rows.low.data());
-    take(one.extents.images, one.extents.rows.high.data());
+    for (double const count : with_images) one.extents.count += count - 1;
   }
   Team& team = division_->team();
   team.meet(Team::Occasion::gathers);
@@ -265,11 +262,9 @@ bool Neighbourhood::agree_on_order(std::vector<Sorting>& all, double reach) {
   for (auto& one : all) {
     std::size_t const at = counts.size();
     counts.resize(at + one.units());
-    for (std::size_t n = 0; n < one.own.size(); ++n) {
-      std::size_t const unit = one.unit_of(one.references.data() + n * static_cast<std::size_t>(one.dimension));
-      one.unit.push_back(static_cast<std::uint32_t>(unit));
-      ++counts[at + unit];
-    }
+    one.unit = cells_of(one.grid, one.references.data(), static_cast<std::size_t>(one.dimension), one.own.size());
+    auto const cells_of_unit = static_cast<std::uint32_t>(one.cells_of_unit());
+    for (auto& unit : one.unit) ++counts[at + (unit /= cells_of_unit)];
   }
   division_->team().sum(counts);
   auto next = counts.begin();
@@ -333,7 +328,7 @@ std::vector<std::vector<std::uint32_t>> Neighbourhood::readers(Sorting const& on
       std::array<double, 3> at{};
       for (int n = 0; n < 2 && axes[n] < one.dimension; ++n)
         at[axes[n]] = images.at(axes[n], near.turns[n], x[axes[n]]);
-      return distance2(near.place, axes, one.dimension, at.data()) <= one.wide * one.wide;
+      return distance2(near.place, axes, at.data()) <= one.wide * one.wide;
     };
     for (Reader const& reader : readers)
       if (reader.all || std::any_of(reader.near.begin(), reader.near.end(), is_near))
@@ -356,7 +351,7 @@ void Neighbourhood::build_part(Sorting const& one, std::vector<std::uint32_t> co
   part.references.resize(at.size());
   auto& owners = division_->owners_here(one.copy->ensemble());
   Numbers own(one.copy->ensemble().size());
-  std::size_t const cells_of_unit = one.dimension == 1 ? 1 : static_cast<std::size_t>(one.grid.count[0]);
+  std::size_t const cells_of_unit = one.cells_of_unit();
   std::size_t owner = 0;
   for (std::size_t unit = 0, n = 0; n < numbers.size(); ++unit)
     for (std::size_t row = one.start[unit], end = sorted.start()[(unit + 1) * cells_of_unit]; n < end; ++n, ++row) {
@@ -378,11 +373,10 @@ void Neighbourhood::build_part(Sorting const& one, std::vector<std::uint32_t> co
     for (auto const& place : one.places_of(rank)) places.push_back(place);
   // Most are found near whole lines, if these are asked first.
   std::stable_partition(places.begin(), places.end(), [](Place const& place) { return place[0].low == -infinite; });
-  part.near = [places = std::move(places), axes = one.axes(), dimension = one.dimension,
-               square = one.wide * one.wide](double const* x) {
-    return std::any_of(places.begin(), places.end(),
-                       [&](Place const& place) { return distance2(place, axes, dimension, x) <= square; });
-  };
+  part.near.axes = one.axes();
+  part.near.square = one.wide * one.wide;
+  for (auto const& [first, second] : places)
+    part.near.places.push_back({{first.low, second.low}, {first.high, second.high}});
   own_[e].clear();
   if (one.cut[rank] < one.cut[rank + 1]) own_[e].push_back({one.cut[rank], one.cut[rank + 1]});
   division_->take(one.copy->ensemble(), own.ascending());
@@ -435,9 +429,10 @@ void Neighbourhood::become_whole(int threads) {
     take_shares();
   else
     for (std::size_t e = 0; e < copies_.size(); ++e) own_[e] = {{0, copies_[e].owned()}};
+  begin_marks();
   for (auto& list : lists_)
     list.list.build(*list.target, *list.source, list.cutoff, skin(), own(*list.target),
-                    threads_for(list.target->owned(), 4, threads));
+                    threads_for(list.target->owned(), 4, threads), marks(list.source));
   complete_ = !divided();
   ++version_;
 }

@@ -25,6 +25,16 @@ void find_cells(Grid const& of, double const* rows, std::size_t stride, std::siz
 
 }  // namespace
 
+std::vector<std::uint32_t> cells_of(Grid const& grid, double const* rows, std::size_t stride, std::size_t count,
+                                    int threads) {
+  std::vector<std::uint32_t> cell(count);
+  for_ranges(count, points_per_task, threads, [&](std::size_t begin, std::size_t end) {
+    auto const find = grid.dimension == 1 ? find_cells<1> : grid.dimension == 2 ? find_cells<2> : find_cells<3>;
+    find(grid, rows, stride, begin, end, cell.data());
+  });
+  return cell;
+}
+
 Bounds Bounds::of(int dimension, double const* rows, std::size_t stride, std::size_t count) {
   Bounds extent;
   for (int a = 0; a < dimension && count > 0; ++a) {
@@ -67,11 +77,7 @@ Cells::Cells(Grid const& grid, double const* rows, std::size_t stride, std::size
     : grid_(grid), reach_(reach) {
   start_.assign(grid_.cells() + 2, 0);
   items_.resize(count);
-  std::vector<std::uint32_t> cell(count);
-  for_ranges(count, points_per_task, threads, [&](std::size_t begin, std::size_t end) {
-    auto const find = grid_.dimension == 1 ? find_cells<1> : grid_.dimension == 2 ? find_cells<2> : find_cells<3>;
-    find(grid_, rows, stride, begin, end, cell.data());
-  });
+  auto const cell = cells_of(grid_, rows, stride, count, threads);
   for (std::size_t i = 0; i < count; ++i) ++start_[cell[i] + 2];
   std::uint32_t before = 0;
   for (auto& start : start_) start = before += start;

@@ -17,6 +17,10 @@ struct Bounds {
   static Bounds of(int dimension, double const* rows, std::size_t stride, std::size_t count);
 };
 
+/// The cell of each of `count` points, at rows + i * stride.
+std::vector<std::uint32_t> cells_of(Grid const& grid, double const* rows, std::size_t stride, std::size_t count,
+                                    int threads = 1);
+
 /// A grid fine enough to find what is within `reach`, and the points in each cell. The number of cells is kept in
 /// proportion to the number of points, whatever their extent.
 class Cells {

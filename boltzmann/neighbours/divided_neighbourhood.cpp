@@ -80,6 +80,7 @@ void Neighbourhood::divide(Division* division, int threads) {
 void Neighbourhood::complete(int threads) {
   if (complete_) return;
   if (is_part()) return become_whole(threads);
+  marks_.clear();
   for (auto& list : lists_) {
     std::vector<Stretch> missing;
     std::size_t end = 0;
@@ -129,13 +130,16 @@ void Neighbourhood::follow_others() {
 /// were: nobody but lists reads them.
 bool Neighbourhood::bring_rows() {
   bool const straight = !also_read_ && !division_->rows_are_read() && division_->leads(this) && !box_->sheared();
-  if (straight)
-    exchange_.bring_rows(*division_, [this](std::size_t e, std::size_t rank, double const* from) {
-      copies_[e].place(received_rows_[e][rank], from);
-    });
-  else
+  if (!straight) {
     exchange_.bring_rows(*division_);
-  return straight;
+    return false;
+  }
+  std::vector<std::size_t> numbers;
+  for (auto const& copy : copies_) numbers.push_back(row_block * copy.followed_blocks());
+  exchange_.bring_rows(*division_, numbers, [this](std::size_t e, std::size_t rank, double const* from) {
+    copies_[e].place(received_rows_[e][rank], from);
+  });
+  return true;
 }
 
 /// Where the rows of each rank begin, and one more: each gets as much work, as far as lists before have shown it.
@@ -146,7 +150,8 @@ WorkShares::Cuts const& Neighbourhood::cut(std::size_t e) {
 
 /// The entries of all ranks' lists, and what rows have taken.
 std::size_t Neighbourhood::take_work(std::size_t entries) {
-  constexpr std::size_t of_a_row = 12;  // what is done for each particle besides, in entries
+  // What is done for each particle besides, and for those of others and images that are known here, in entries.
+  constexpr std::size_t of_a_row = 12, of_another = 6, of_an_image = 3;
   if (!division_->leads(this)) return sum(entries);
   std::vector<WorkShares::Work> mine(copies_.size() + 1);
   mine.back()[0] = entries;
@@ -162,6 +167,11 @@ std::size_t Neighbourhood::take_work(std::size_t entries) {
         }
     };
     of_rows([](std::size_t) { return of_a_row; });
+    if (is_part()) {
+      SortedCopy const& copy = copies_[e];
+      auto const around = of_another * (copy.known() - own) + of_an_image * (copy.total() - copy.owned());
+      for (auto& work : mine[e]) work += around / WorkShares::parts;
+    }
     for (auto const& list : lists_)
       if (list.target == &copies_[e])
         of_rows([lengths = list.list.lengths(list_rings - 1)](std::size_t k) { return lengths[k]; });
@@ -211,7 +221,7 @@ void Neighbourhood::take_over(int threads) {
     std::size_t e = 0;
     while (&copies_[e] != list.target) ++e;
     auto const missing = without(own_[e], before[e]);
-    if (!missing.empty()) list.list.build_more(*list.target, *list.source, missing, threads);
+    if (!missing.empty()) list.list.build_more(*list.target, *list.source, missing, threads, marks(list.source));
   }
 }
 
@@ -234,9 +244,27 @@ bool Neighbourhood::is_own(SortedCopy const& copy, std::uint32_t row) const {
   return after != rows.begin() && row < std::prev(after)->end;
 }
 
-/// The rows of each copy, images too, that are in this rank's lists; the sentinel, too, by which these are padded.
+/// In divided runs lists say which rows they read, and some near these, while they are found.
+void Neighbourhood::begin_marks() {
+  marks_.clear();
+  for (auto const& copy : copies_)
+    if (divided()) marks_.emplace_back(copy.total() + 1, 0);
+}
+
+char* Neighbourhood::marks(SortedCopy const* source) {
+  if (marks_.empty()) return nullptr;
+  std::size_t e = 0;
+  while (&copies_[e] != source) ++e;
+  marks_[e].resize(source->total() + 1);
+  return marks_[e].data();
+}
+
+/// The rows of each copy, images too, that may be in this rank's lists, where that is known from the time they were found;
+/// else those that are, and the sentinel, by which these are padded.
 std::vector<std::vector<char>> Neighbourhood::rows_in_lists(int threads) const {
-  std::vector<std::vector<char>> found;
+  std::vector<std::vector<char>> found = marks_;
+  for (std::size_t e = 0; e < found.size(); ++e) found[e].resize(copies_[e].total() + 1);
+  if (!found.empty()) return found;
   for (auto const& copy : copies_) found.emplace_back(copy.total() + 1, 0);
   for (auto const& list : lists_) {
     std::size_t e = 0;
@@ -259,10 +287,14 @@ std::vector<std::vector<char>> Neighbourhood::rows_in_lists(int threads) const {
 /// Which rows of others this rank reads; their owners hear of it.
 void Neighbourhood::find_needed(int threads) {
   row_of_.resize(copies_.size());
+  std::vector<std::vector<std::uint32_t>> known;
   for (std::size_t e = 0; e < copies_.size(); ++e) {
     SortedCopy const& copy = copies_[e];
+    auto& rows = known.emplace_back(copy.known());
+    for (std::size_t n = 0; n < rows.size(); ++n) rows[n] = copy.known(n);
     row_of_[e].resize(copy.owned());
-    for (std::size_t n = 0; n < copy.known(); ++n) row_of_[e][copy.order()[copy.known(n)]] = copy.known(n);
+    std::uint32_t* const row_of = row_of_[e].data();
+    for (std::uint32_t const* order = copy.order(); auto const k : rows) row_of[order[k]] = k;
   }
   auto in_lists = rows_in_lists(threads);
   Division::Add const add = [&](AnyEnsemble const& ensemble, std::uint32_t i) {
@@ -274,32 +306,33 @@ void Neighbourhood::find_needed(int threads) {
   std::vector<RowExchange::Needed> needed;
   for (std::size_t e = 0; e < copies_.size(); ++e) {
     SortedCopy& copy = copies_[e];
-    auto& read = in_lists[e];
-    for (std::size_t k = copy.sentinel() + 1; k <= copy.total(); ++k)
+    char* const read = in_lists[e].data();
+    for (std::size_t k = copy.sentinel() + 1, last = copy.total(); k <= last; ++k)
       if (read[k]) read[copy.owner(k)] = 1;
     std::vector<Stretch> rows;
+    needed.push_back({const_cast<AnyEnsemble*>(&copy.ensemble()), {}});
+    auto& numbers = needed.back().numbers;
     auto own = own_[e].begin();
-    for (std::size_t n = 0; n < copy.known(); ++n) {
-      std::uint32_t const k = copy.known(n);
+    auto const last_own = own_[e].end();
+    for (std::uint32_t const* order = copy.order(); auto const k : known[e]) {
       if (!read[k]) continue;
-      while (own != own_[e].end() && own->end <= k) ++own;
-      if (own != own_[e].end() && own->begin <= k) continue;
+      while (own != last_own && own->end <= k) ++own;
+      if (own != last_own && own->begin <= k) continue;
+      numbers.push_back(order[k]);
       if (!rows.empty() && rows.back().end == k)
         ++rows.back().end;
       else
         rows.push_back({k, k + std::size_t{1}});
     }
-    needed.push_back({const_cast<AnyEnsemble*>(&copy.ensemble()), {}});
-    auto& numbers = needed.back().numbers;
-    for (auto const& [begin, end] : rows) numbers.insert(numbers.end(), copy.order() + begin, copy.order() + end);
-    copy.only(own_[e], rows, read);
+    copy.only(own_[e], rows, in_lists[e]);
   }
   exchange_.plan(*division_, std::move(needed));
   received_rows_.assign(copies_.size(), {});
   for (std::size_t e = 0; e < copies_.size(); ++e)
     for (std::size_t r = 0; r < static_cast<std::size_t>(division_->team().size()); ++r) {
-      auto& rows = received_rows_[e].emplace_back();
-      for (auto const i : exchange_.received(e, r)) rows.push_back(row_of_[e][i]);
+      auto const& numbers = exchange_.received(e, r);
+      auto& rows = received_rows_[e].emplace_back(numbers.size());
+      for (std::size_t n = 0; n < rows.size(); ++n) rows[n] = row_of_[e][numbers[n]];
     }
 }
 

@@ -113,6 +113,12 @@ template <int W, int D>
   return near;
 }
 
+/// Other threads may mark the same rows.
+inline void mark_rows(std::uint32_t const* items, std::uint32_t count, char* marks) {
+#pragma GCC unroll 8
+  for (std::uint32_t n = 0; n < count; ++n) __atomic_store_n(marks + row_of_item(items[n]), char{1}, __ATOMIC_RELAXED);
+}
+
 /// Appends the outer rings of a target's row to the innermost, and says where the row is and how long to each ring.
 template <int W>
 [[gnu::always_inline]] inline void finish_row(NearRows& out, std::size_t i,
@@ -169,6 +175,7 @@ template <int W, int D>
     for (std::uint32_t n = 0; n < ranges; ++n)
       near = gather<W, D>(task.sorted, from[n], to[n], block, ring2[list_rings - 1], near_position, near_item, near);
     near = gather<W, D>(task.moved, 0, task.moved_count, block, ring2[list_rings - 1], near_position, near_item, near);
+    if (out.marks) mark_rows(near_item, near, out.marks);
 
     for (std::size_t i = first; i < last; ++i) {
       Pack<float, W> at[D];
@@ -271,6 +278,15 @@ template <int W>
   double* const images = rows + 4 * task.first;
   double const *const sign = task.sign, *const shift = task.shift;
   std::uint32_t const *const source = task.source, *const turns = task.turns;
+  if (last == 1 && mapped == 1) {  // positions alone
+    for (std::size_t g = begin; g < end; ++g) {
+      std::size_t const map = 4 * static_cast<std::size_t>(turns[g]);
+      double const* const from = rows + 4 * static_cast<std::size_t>(source[g]);
+      auto const image = load_pack<4>(from) * load_pack<4>(sign + map) + load_pack<4>(shift + map);
+      __builtin_memcpy(images + 4 * g, &image, sizeof(image));
+    }
+    return;
+  }
   for (std::size_t g = begin; g < end; ++g) {
     double const* from = rows + 4 * static_cast<std::size_t>(source[g]);
     double* to = images + 4 * g;

@@ -64,6 +64,7 @@ struct NearRows {
   std::size_t first = 0;
   std::uint32_t* length = nullptr;  ///< of each row up to ring r: length[r * rows + row]
   std::size_t rows = 0;
+  char* marks = nullptr;  ///< if asked for, of source rows: 1 becomes that of all who are found, and of some near them
   std::size_t wanted = 0,
               wanted_scratch = 0;  ///< what there must be for the targets before which the kernel has stopped
 };

@@ -61,7 +61,7 @@ void find(NearKernel kernel, NearTask const& task, std::size_t begin, std::size_
 }  // namespace
 
 void NeighbourList::build(SortedCopy const& target, SortedCopy const& source, double cutoff, double skin,
-                          std::vector<Stretch> const& rows, int threads) {
+                          std::vector<Stretch> const& rows, int threads, char* marks) {
   cutoff_ = cutoff;
   skin_ = skin;
   std::size_t const all = target.owned();
@@ -73,16 +73,16 @@ void NeighbourList::build(SortedCopy const& target, SortedCopy const& source, do
   replaced_.clear();
   more_.clear();
   entries_ = 0;
-  find_rows(target, source, rows, chunks_, threads);
+  find_rows(target, source, rows, chunks_, threads, marks);
 }
 
 void NeighbourList::build_more(SortedCopy const& target, SortedCopy const& source, std::vector<Stretch> const& rows,
-                               int threads) {
-  find_rows(target, source, rows, more_.emplace_back(), threads);
+                               int threads, char* marks) {
+  find_rows(target, source, rows, more_.emplace_back(), threads, marks);
 }
 
 void NeighbourList::find_rows(SortedCopy const& target, SortedCopy const& source, std::vector<Stretch> const& rows,
-                              std::vector<std::vector<std::uint32_t>>& chunks, int threads) {
+                              std::vector<std::vector<std::uint32_t>>& chunks, int threads, char* marks) {
   NearTask const task = task_of(target, source, cutoff_, skin_);
   NearKernel const kernel = neighbour_kernels().near[target.ensemble().dimension() - 1];
   std::vector<Stretch> parts;  // each with memory of its own
@@ -105,6 +105,7 @@ void NeighbourList::find_rows(SortedCopy const& target, SortedCopy const& source
       out.first = begin;
       out.length = length_.data();
       out.rows = size();
+      out.marks = marks;
       find(kernel, task, begin, end, out, index, scratch);
       for (std::size_t i = begin; i < end; ++i) row_[i] = index.data() + scratch.offset[i - begin];
       if (!filter_.start.empty())
@@ -115,7 +116,8 @@ void NeighbourList::find_rows(SortedCopy const& target, SortedCopy const& source
   entries_ += entries;
 }
 
-void NeighbourList::rebuild(SortedCopy const& target, SortedCopy const& source, std::span<std::uint32_t const> rows) {
+void NeighbourList::rebuild(SortedCopy const& target, SortedCopy const& source, std::span<std::uint32_t const> rows,
+                            char* marks) {
   rebuilt_.assign(rows.begin(), rows.end());
   NearTask const task = task_of(target, source, cutoff_, skin_);
   NearKernel const kernel = neighbour_kernels().near[target.ensemble().dimension() - 1];
@@ -130,6 +132,7 @@ void NeighbourList::rebuild(SortedCopy const& target, SortedCopy const& source, 
     out.first = i;
     out.length = length_.data();
     out.rows = size();
+    out.marks = marks;
     find(kernel, task, i, i + 1, out, index, scratch);
     if (out.used > padded(before)) {
       replaced_.emplace_back(out.used);

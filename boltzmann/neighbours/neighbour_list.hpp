@@ -36,13 +36,16 @@ class NeighbourList {
   void build(SortedCopy const& target, SortedCopy const& source, double cutoff, double skin, int threads) {
     build(target, source, cutoff, skin, {{0, target.owned()}}, threads);
   }
-  /// Finds the neighbours of these target rows, which are owned; the others' lists are empty.
+  /// Finds the neighbours of these target rows, which are owned; the others' lists are empty. `marks`, if asked for: 1
+  /// for each row of the source that is in a list, and for some that are near.
   void build(SortedCopy const& target, SortedCopy const& source, double cutoff, double skin,
-             std::vector<Stretch> const& rows, int threads);
+             std::vector<Stretch> const& rows, int threads, char* marks = nullptr);
   /// And those of others, for references as they were then or have been changed since.
-  void build_more(SortedCopy const& target, SortedCopy const& source, std::vector<Stretch> const& rows, int threads);
+  void build_more(SortedCopy const& target, SortedCopy const& source, std::vector<Stretch> const& rows, int threads,
+                  char* marks = nullptr);
   /// Finds those of the given target rows anew, after references have been changed (SortedCopy::move).
-  void rebuild(SortedCopy const& target, SortedCopy const& source, std::span<std::uint32_t const> rows);
+  void rebuild(SortedCopy const& target, SortedCopy const& source, std::span<std::uint32_t const> rows,
+               char* marks = nullptr);
 
   std::size_t size() const { return row_.size(); }
   /// Where each row starts.
@@ -57,7 +60,7 @@ class NeighbourList {
 
  private:
   void find_rows(SortedCopy const& target, SortedCopy const& source, std::vector<Stretch> const& rows,
-                 std::vector<std::vector<std::uint32_t>>& chunks, int threads);
+                 std::vector<std::vector<std::uint32_t>>& chunks, int threads, char* marks);
   void sift(SortedCopy const& target, SortedCopy const& source, std::size_t i);
 
   PairFilter filter_;

@@ -41,8 +41,10 @@ Neighbourhood::~Neighbourhood() {
   if (divided()) division_->gathers(this, {});
 }
 
-std::size_t Neighbourhood::add(AnyEnsemble& target, AnyEnsemble& source, double cutoff, PairFilter filter) {
+std::size_t Neighbourhood::add(AnyEnsemble& target, AnyEnsemble& source, double cutoff, PairFilter filter,
+                               bool positions_alone) {
   check_cutoff(cutoff);
+  if (!positions_alone) copy(source);
   for (std::size_t n = 0; n < lists_.size(); ++n)
     if (&lists_[n].target->ensemble() == &target && &lists_[n].source->ensemble() == &source &&
         lists_[n].cutoff == cutoff && lists_[n].list.filter() == filter)
@@ -50,20 +52,22 @@ std::size_t Neighbourhood::add(AnyEnsemble& target, AnyEnsemble& source, double 
   if (!filter.start.empty() && (&target != &source || filter.start.size() != target.size() + 1))
     throw Error(fmt::format("a filter of pairs is of the particles of one ensemble, all {} of '{}'", target.size(),
                             target.name()));
-  lists_.push_back({&copy(target), &copy(source), cutoff, {}});
+  lists_.push_back({&copy_of(target), &copy_of(source), cutoff, {}});
   lists_.back().list.filter(std::move(filter));
   stale_ = true;
   return lists_.size() - 1;
 }
 
-SortedCopy& Neighbourhood::copy(AnyEnsemble& ensemble, std::size_t extra_blocks) {
+SortedCopy& Neighbourhood::copy_of(AnyEnsemble& ensemble, std::size_t extra_blocks) {
   for (auto& copy : copies_)
     if (&copy.ensemble() == &ensemble) return copy;
   stale_ = true;
   own_.emplace_back();
   shares_.emplace_back();
   cuts_.emplace_back();
-  return copies_.emplace_back(ensemble, *box_, extra_blocks);
+  SortedCopy& made = copies_.emplace_back(ensemble, *box_, extra_blocks);
+  made.positions_alone(true);
+  return made;
 }
 
 std::vector<Stretch> const& Neighbourhood::own(SortedCopy const& copy) const {
@@ -141,10 +145,11 @@ void Neighbourhood::find_neighbours(int threads) {
   if (!divided())
     for (std::size_t e = 0; e < copies_.size(); ++e) own_[e] = {{0, copies_[e].owned()}};
   complete_ = !divided();
+  begin_marks();
   std::size_t entries = 0;
   for (auto& list : lists_) {
     list.list.build(*list.target, *list.source, list.cutoff, skin(), own(*list.target),
-                    threads_for(list.target->owned(), 4, threads));
+                    threads_for(list.target->owned(), 4, threads), marks(list.source));
     entries += list.list.entries();
   }
   entries_ = divided() ? take_work(entries) : entries;
@@ -178,7 +183,7 @@ void Neighbourhood::move(std::vector<Moved> const& moved) {
     rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
     if (divided()) std::erase_if(rows, [&](std::uint32_t row) { return !is_own(*list.target, row); });
     found_again_ += static_cast<double>(sum(rows.size()));
-    list.list.rebuild(*list.target, *list.source, rows);
+    list.list.rebuild(*list.target, *list.source, rows, marks(list.source));
   }
   ++moves_;
 }

@@ -39,10 +39,16 @@ class Neighbourhood {
   /// equal list if there is one. Error if the cut-off is not a positive length.
   std::size_t add(AnyEnsemble& target, AnyEnsemble& source, double cutoff) { return add(target, source, cutoff, {}); }
   /// The same but for pairs that a filter does not let through. Error if it is not of as many particles, or of two
-  /// ensembles.
-  std::size_t add(AnyEnsemble& target, AnyEnsemble& source, double cutoff, PairFilter filter);
-  /// The sorted copy of an ensemble, made when it is first asked for, with so many extra blocks (see SortedCopy).
-  SortedCopy& copy(AnyEnsemble& ensemble, std::size_t extra_blocks = 0);
+  /// ensembles. `positions_alone`: whoever uses the list reads no other fields of the source.
+  std::size_t add(AnyEnsemble& target, AnyEnsemble& source, double cutoff, PairFilter filter,
+                  bool positions_alone = false);
+  /// The sorted copy of an ensemble, made when it is first asked for, with so many extra blocks (see SortedCopy): for
+  /// whoever reads all of its rows.
+  SortedCopy& copy(AnyEnsemble& ensemble, std::size_t extra_blocks = 0) {
+    SortedCopy& all = copy_of(ensemble, extra_blocks);
+    all.positions_alone(false);
+    return all;
+  }
   /// Whether there is one.
   bool has(AnyEnsemble const& ensemble) const {
     for (auto const& copy : copies_)
@@ -131,6 +137,7 @@ class Neighbourhood {
   };
 
   bool divided() const { return division_ != nullptr; }
+  SortedCopy& copy_of(AnyEnsemble& ensemble, std::size_t extra_blocks = 0);
   void find_resized();
   bool follow(int threads, bool others = true);
   bool lists_hold(double largest2);
@@ -152,6 +159,8 @@ class Neighbourhood {
   void take_over(int threads);
   void find_needed(int threads);
   std::vector<std::vector<char>> rows_in_lists(int threads) const;
+  void begin_marks();
+  char* marks(SortedCopy const* source);
   void complete(int threads);
   WorkShares::Cuts const& cut(std::size_t e);
   std::size_t take_work(std::size_t entries);
@@ -193,6 +202,7 @@ class Neighbourhood {
   bool references_known_ = true;  // of all particles, where sorted copies are parts
   std::deque<SortedCopy> copies_;
   std::deque<std::vector<Stretch>> own_;            // rows of each copy, of which there are lists
+  std::vector<std::vector<char>> marks_;            // of rows of each copy: they may be in lists; none: not known
   std::vector<std::vector<std::uint32_t>> row_of_;  // of each particle in each copy, while a run is divided
   std::vector<std::vector<std::vector<std::uint32_t>>> received_rows_;  // of each copy, from each rank
   std::deque<List> lists_;

@@ -126,9 +126,10 @@ void SortedCopy::build_part(double reach, Part part, int threads) {
   for_ranges(known_.size(), refresh_grain, threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t n = begin; n < end; ++n) {
       std::uint32_t const i = part.particles[n];
-      std::copy_n(part.references.data() + D * n, D, built_by_number_.data() + D * i);
+      double const* const reference = part.references.data() + D * n;
+      for (std::size_t a = 0; a < D; ++a) built_by_number_[D * i + a] = reference[a];
       order_[known_[n]] = i;
-      take_reference(known_[n], part.references.data() + D * n);
+      take_reference(known_[n], reference);
     }
   });
   add_ghosts(&part, threads);
@@ -332,14 +333,64 @@ void SortedCopy::add_ghosts(Part const* part, int threads) {
     std::vector<std::uint32_t> source, turns;
   };
   std::vector<Found> parts((known() + refresh_grain - 1) / refresh_grain);
+  int const dimension = box_->dimension();
+  auto const may_be_near = [&](int a, double from, double to) {
+    if (!part) return true;
+    auto const& [places, axes, square] = part->near;
+    double const wide = std::sqrt(square) * (1 + 1e-12);
+    for (int n = 0; n < 2; ++n)
+      if (axes[n] == a) {
+        for (auto const& place : places)
+          if (place.low[n] - wide <= to && place.high[n] + wide >= from) return true;
+        return false;
+      }
+    return true;
+  };
+  // Inside of these edges rows have no images, or none that is asked for.
+  std::array<double, 3> low, high;
+  low.fill(-std::numeric_limits<double>::infinity()), high.fill(std::numeric_limits<double>::infinity());
+  for (int a = 0; a < dimension; ++a) {
+    int const most = images_.most(a, reach_);
+    if (most == 0) continue;
+    double const begin = built_edges_[a], end = built_edges_[3 + a];
+    bool const any = !box_->periodic(a) || most > 1;
+    if (any || may_be_near(a, end, end + reach_)) low[a] = begin + reach_;
+    if (any || may_be_near(a, begin - reach_, begin)) high[a] = end - reach_;
+  }
   for_ranges(known(), refresh_grain, threads, [&](std::size_t begin, std::size_t end) {
     Found& found = parts[begin / refresh_grain];  // of one thread: whole ranges, or all of them in the first
     for (std::size_t n = begin; n < end; ++n) {
       std::uint32_t const k = known(n);
-      images_.each(references_.data() + 4 * std::size_t{k}, reach_, [&](Turns const& turns, auto const& at) {
-        if (turns == Turns{} || (part && !part->near(at.data()))) return;
+      double const* const x = references_.data() + 4 * std::size_t{k};
+      if (x[0] > low[0] && x[0] < high[0] && x[1] > low[1] && x[1] < high[1] && x[2] > low[2] && x[2] < high[2])
+        continue;
+      auto const take = [&](Turns const& turns) {
+        if (turns == Turns{}) return;
         found.source.push_back(k);
         found.turns.push_back(code_of(turns));
+      };
+      if (!part) {
+        images_.each(x, reach_, [&](Turns const& turns, auto const&) { take(turns); });
+        continue;
+      }
+      std::array<Images::Range, 3> range;
+      for (int a = 0; a < dimension; ++a) range[a] = images_.turns_within(a, reach_, x[a]);
+      std::array<double, 3> at{x[0], x[1], x[2]};
+      Turns turns{};
+      auto const along = [&](int a, auto const& each) {
+        for (turns[a] = range[a].first; turns[a] <= range[a].last; ++turns[a]) {
+          at[a] = images_.at(a, turns[a], x[a]);
+          each();
+        }
+      };
+      // Places are told apart along the first axis in 1D alone.
+      along(2, [&] {
+        along(1, [&] {
+          if (dimension > 1 && !part->near(at.data())) return;
+          along(0, [&] {
+            if (dimension > 1 || part->near(at.data())) take(turns);
+          });
+        });
       });
     }
   });
@@ -445,6 +496,7 @@ RefreshTask SortedCopy::refresh_task() const {
 void SortedCopy::place(std::span<std::uint32_t const> rows, double const* from) {
   auto task = refresh_task();
   task.ensemble = from;
+  task.stride = row_block * followed_blocks();
   neighbour_kernels().place(task, rows.data(), rows.size());
 }
 
@@ -478,7 +530,7 @@ bool SortedCopy::refresh(int threads, bool others) {
     slide_ = box_->slide();
     find_image_maps();
   }
-  refresh_images(0, blocks(), threads);
+  refresh_images(0, followed_blocks(), threads);
   return changed;
 }
 

@@ -8,9 +8,9 @@
 #include <boltzmann/particles/ensemble.hpp>
 #include <boltzmann/particles/share.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
-#include <functional>
 #include <new>
 #include <span>
 #include <vector>
@@ -58,15 +58,36 @@ class SortedCopy {
   /// And with walls where they stood at an earlier build (built_edges()), and a sheared box's slide (built_slide()).
   void build(double reach, std::span<double const> references, Box::Edges const& edges, double slide, int threads = 1);
 
+  /// Places that are told apart along two of the axes; what is within a distance of one of them is near.
+  struct NearPlaces {
+    struct Place {
+      double low[2], high[2];
+    };
+    std::vector<Place> places;
+    std::array<int, 2> axes{};
+    double square = 0;  ///< of the distance
+
+    /// Of a position, three numbers.
+    bool operator()(double const* x) const {
+      double const first = x[axes[0]], second = x[axes[1]];
+      for (Place const& place : places) {
+        double const a = out_of(first, place.low[0], place.high[0]), b = out_of(second, place.low[1], place.high[1]);
+        if (a * a + b * b <= square) return true;
+      }
+      return false;
+    }
+
+   private:
+    static double out_of(double x, double low, double high) { return std::max(std::max(0.0, low - x), x - high); }
+  };
   /// What one rank of a team sees of a build that is all ranks' together.
   struct Part {
     std::vector<std::uint32_t> particles;  ///< that it knows, in the order of
     std::vector<std::uint32_t> rows;       ///< their rows, ascending,
     std::vector<double> references;        ///< and references, dimension() numbers each
     Grid grid;                             ///< for the references of all rows, images included
-    /// Whether a position is one where those are found whose neighbours are sought here. Rows and images elsewhere are
-    /// in no cell.
-    std::function<bool(double const* x)> near;
+    /// Where those are found whose neighbours are sought here. Rows and images elsewhere are in no cell.
+    NearPlaces near;
   };
   /// The build of which this is a part: rows are sorted among themselves as all are, the others stay unknown, and there
   /// are images of those that are known alone.
@@ -99,7 +120,8 @@ class SortedCopy {
   /// the walls are now. Extra blocks stay as they are. True if a position, or a wall's place, has changed since the
   /// last time. PhysicsFailure if a position is not finite. `others`: also those that others advance (only()).
   bool refresh(int threads, bool others = true);
-  /// Owned rows as particles have come from elsewhere, `from` one after the other: rows[0], rows[1], ...
+  /// Owned rows as particles have come from elsewhere, `from` one after the other: rows[0], rows[1], ..., of each as
+  /// many blocks as are followed.
   void place(std::span<std::uint32_t const> rows, double const* from);
   /// From now on refresh() brings up to date these owned rows only, `others` and those images that `read` has (a number
   /// other than 0 for each of them, at its row), until the next build; largest2(), beyond() and what refresh() returns
@@ -131,6 +153,12 @@ class SortedCopy {
   std::vector<std::uint32_t> const& moved() const { return moved_; }
   /// Adds to `rows` the owned rows whose references, or images of them, are within `reach` of x.
   void owned_near(double const* x, double reach, std::vector<std::uint32_t>& rows) const;
+
+  /// Whether of images, and of rows that come from elsewhere, only the first block is brought up to date, in which
+  /// positions are: until the first who asks for more.
+  void positions_alone(bool yes) { positions_alone_ = yes; }
+  /// How many blocks are.
+  std::size_t followed_blocks() const { return positions_alone_ ? 1 : blocks(); }
 
   /// Block b (4 doubles) of row k is at rows() + b * block_stride() + 4 k: what no law reads is in no law's way.
   double const* rows() const { return rows_.data(); }
@@ -229,6 +257,7 @@ class SortedCopy {
   Images images_;                            // of references, about the edges at the build
   int max_images_ = 0;
   std::size_t extra_blocks_;
+  bool positions_alone_ = false;
   std::vector<ImageComponent> components_;  // of each number of a row
   Box::Edges built_edges_{}, edges_{};      // at the build, at the last refresh
   Box::Walled built_walls_{};

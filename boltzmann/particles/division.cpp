@@ -32,6 +32,26 @@ double* copy_few(double const* from, std::size_t count, double* to) {
   return to;
 }
 
+/// The first `count` numbers of the rows of these particles, to `to`; gives their end.
+double* pack(std::vector<std::uint32_t> const& particles, AnyEnsemble const& ensemble, std::size_t count, double* to) {
+  constexpr std::size_t ahead = 12;
+  std::size_t const size = particles.size(), stride = ensemble.stride();
+  double const* const rows = size == 0 ? nullptr : ensemble.row(0);
+  auto const each = [&](auto const& copy) {
+    std::size_t n = 0;
+    for (; n + ahead < size; ++n, to += count) {
+      __builtin_prefetch(rows + stride * particles[n + ahead]);
+      copy(rows + stride * particles[n]);
+    }
+    for (; n < size; ++n, to += count) copy(rows + stride * particles[n]);
+  };
+  if (count == row_block)
+    each([&](double const* row) { std::memcpy(to, row, row_block * sizeof(double)); });
+  else
+    each([&](double const* row) { copy_few(row, count, to); });
+  return to;
+}
+
 }  // namespace
 
 Division::Division(Team& team) : team_(team) {
@@ -298,7 +318,7 @@ void Division::gather(AnyEnsemble const& ensemble, double* numbers, std::size_t 
       for (std::size_t i = begin; i < end; ++i, buffer += count) copy(buffer, numbers + i * stride);
   };
   sent_[0].resize(part.sizes[mine] * count);
-  over(mine, sent_[0].data(), [&](double* to, double const* from) { std::copy_n(from, count, to); });
+  over(mine, sent_[0].data(), [&](double* to, double const* from) { copy_few(from, count, to); });
   std::vector<Team::Message> messages;
   for (std::size_t r = 0; r < ranks; ++r) {
     if (r == mine) continue;
@@ -308,7 +328,7 @@ void Division::gather(AnyEnsemble const& ensemble, double* numbers, std::size_t 
   }
   team_.exchange(messages);
   for (std::size_t r = 0; r < ranks; ++r)
-    if (r != mine) over(r, received_[r].data(), [&](double const* from, double* to) { std::copy_n(from, count, to); });
+    if (r != mine) over(r, received_[r].data(), [&](double const* from, double* to) { copy_few(from, count, to); });
 }
 
 double Division::least(double mine) {
@@ -351,31 +371,28 @@ void RowExchange::plan(Division& division, std::vector<Needed> needed) {
   team.exchange(messages);
 }
 
-void RowExchange::bring_rows(Division& division, Take const& take) {
-  auto const count = [&](std::size_t e) { return ensembles_[e]->stride(); };
+void RowExchange::bring_rows(Division& division) {
+  std::vector<std::size_t> numbers;
+  for (auto const* ensemble : ensembles_) numbers.push_back(ensemble->stride());
+  bring_rows(division, numbers, [&](std::size_t e, std::size_t r, double const* from) {
+    for (auto const i : receives_[r][e]) {
+      copy_few(from, numbers[e], ensembles_[e]->row(i));
+      from += numbers[e];
+    }
+  });
+}
+
+void RowExchange::bring_rows(Division& division, std::vector<std::size_t> const& numbers, Take const& take) {
+  auto const count = [&](std::size_t e) { return numbers[e]; };
   division.team().exchange(
       sizes(sends_, count), sizes(receives_, count),
       [&](std::size_t r, double* to) {
-        constexpr std::size_t ahead = 12;
-        for (std::size_t e = 0; e < ensembles_.size(); ++e) {
-          auto const& numbers = sends_[r][e];
-          std::size_t const stride = count(e);
-          double const* const rows = numbers.empty() ? nullptr : ensembles_[e]->row(0);
-          for (std::size_t n = 0; n < numbers.size(); ++n) {
-            if (n + ahead < numbers.size()) __builtin_prefetch(rows + stride * numbers[n + ahead]);
-            to = copy_few(rows + stride * numbers[n], stride, to);
-          }
-        }
+        for (std::size_t e = 0; e < ensembles_.size(); ++e) to = pack(sends_[r][e], *ensembles_[e], numbers[e], to);
       },
       [&](std::size_t r, double const* from) {
         for (std::size_t e = 0; e < ensembles_.size(); ++e) {
-          auto const& numbers = receives_[r][e];
-          if (take)
-            take(e, r, from);
-          else
-            for (std::size_t n = 0; n < numbers.size(); ++n)
-              copy_few(from + n * count(e), count(e), ensembles_[e]->row(numbers[n]));
-          from += numbers.size() * count(e);
+          take(e, r, from);
+          from += receives_[r][e].size() * numbers[e];
         }
       });
 }

@@ -179,10 +179,12 @@ class RowExchange {
   };
   void plan(Division& division, std::vector<Needed> needed);
 
-  /// Owners send rows, for all ranks: to where they are in the ensembles, or to take(e, rank, from), from[0] being the
-  /// first number of the first particle of received(e, rank).
+  /// Owners send rows, for all ranks, to where they are in the ensembles.
+  void bring_rows(Division& division);
+  /// The same of the first numbers[e] of each row, to take(e, rank, from): from[0] is the first of the first particle of
+  /// received(e, rank).
   using Take = std::function<void(std::size_t e, std::size_t rank, double const* from)>;
-  void bring_rows(Division& division, Take const& take = {});
+  void bring_rows(Division& division, std::vector<std::size_t> const& numbers, Take const& take);
   std::vector<std::uint32_t> const& received(std::size_t e, std::size_t rank) const { return receives_[rank][e]; }
   /// The same of any numbers: give(e, i, to) writes `count(e)` doubles of particle i of ensemble e (in the order of the
   /// plan) for another rank, and take(e, i, from) gets them there.

@@ -9,11 +9,15 @@
 #include <boltzmann/laws/rydberg.hpp>
 #include <boltzmann/laws/spring.hpp>
 #include <boltzmann/laws/vortex.hpp>
+#include <boltzmann/scenario/classes.hpp>
+#include <boltzmann/scenario/law_binding.hpp>
 #include <boltzmann/scenario/laws.hpp>
 
 #include <filesystem>
+#include <random>
 #include <set>
 #include <string>
+#include <vector>
 
 namespace boltzmann::catalogue_test {
 namespace {
@@ -69,6 +73,47 @@ TEST(LawCatalogue, AgreesWithTheTypes) {
               (law.name == "drag" && depends_on_velocity<Drag>()) ||
                   (law.name == "uniform-magnetic-field" && depends_on_velocity<UniformMagneticField<3>>()))
         << law.name;
+}
+
+/// What a law gives to two particles, where all but their positions are drawn from this seed.
+std::vector<double> influences(LawInfo const& law, ParameterValues const& values, int dimension, unsigned seed) {
+  auto const particles = [&](std::string_view name) {
+    return find_class(name == "Particle" ? "Newton" : name)->in(dimension)->make(std::string(name), 2);
+  };
+  auto const target = particles(law.target), other = law.source == law.target ? nullptr : particles(law.source);
+  AnyEnsemble& source = other ? *other : *target;
+  std::minstd_rand random(seed);
+  for (auto* ensemble : {target.get(), &source})
+    for (std::size_t i = 0; i < 2; ++i) {
+      double* const row = ensemble->row(i);
+      for (std::size_t k = 0; k < ensemble->doubles(); ++k)
+        row[k] = 0.5 + 1e-9 * static_cast<double>(random() % 1000000);
+      for (int a = 0; a < dimension; ++a)
+        row[a] = 0.3 * static_cast<double>(i) + 0.1 * a + (ensemble == &source ? 0.2 : 0);
+    }
+  PairScheme scheme(Box(dimension, {-1, -1, -1}, {1, 1, 1}, {Boundary::open, Boundary::open, Boundary::open}));
+  install_pairs(scheme, law, values, other ? LawUse::one_way : LawUse::internal, *target, source, no_cutoff);
+  scheme.calculate();
+  auto const all = target->influences();
+  return {all.begin(), all.end()};
+}
+
+// Ranks send no more than positions of what laws say reads no more: each is asked with other velocities, masses, charges.
+TEST(LawCatalogue, ThoseOfPositionsAloneReadNothingElse) {
+  int alone = 0;
+  for (auto const& law : scenario_laws()) {
+    if (law.kind != LawKind::pair) continue;
+    ParameterValues values;
+    for (auto const& parameter : law.parameters) values.emplace_back(parameter.name, std::vector{1.0});
+    bool reads_more = false, says_so = false;
+    for (int D = law.least_dimension; D <= law.greatest_dimension; ++D) {
+      says_so = law.bind(values, D).traits.positions_alone;
+      reads_more = reads_more || influences(law, values, D, 1) != influences(law, values, D, 2);
+    }
+    EXPECT_EQ(says_so, !reads_more) << law.name;
+    alone += says_so ? 1 : 0;
+  }
+  EXPECT_GE(alone, 6);
 }
 
 TEST(LawCatalogue, Dimensions) {

@@ -83,6 +83,25 @@ TEST(DividedRun, OfTwoSpecies) {
         60, {2, 3});
 }
 
+/// A drag between atoms that are near, by what each is.
+auto const drag = [](auto const& p, auto const& q) { return (q.velocity - p.velocity) * (0.4 * q.mass); };
+
+// Beside a law of positions alone, in the same sorted copy, or by itself: what it reads comes from other ranks, too.
+TEST(DividedRun, OfLawsThatReadVelocitiesAndMasses) {
+  for (int const kind : {0, 1, 2})
+    expect_same_bits(
+        [=](World& world) {
+          melt<3>(world, 6, 3.0, Boundary::periodic);
+          auto& scheme = *static_cast<PairScheme*>(world.parts[1].get());
+          auto& atoms = *dynamic_cast<Ensemble<Newton<3>>*>(scheme.ensembles()[0]);
+          for (std::size_t i = 0; i < atoms.size(); ++i) atoms[i].mass = 1 + 0.1 * static_cast<double>(i % 7);
+          if (kind == 0) scheme.internal(atoms, drag, 2.5);
+          if (kind == 1) scheme.internal(atoms, drag, 1.5);
+          if (kind == 2) scheme.internal(atoms, FormulaLaw::influence("0.4*q.mass*(q.velocity - p.velocity)"), 1.5);
+        },
+        12, {2, 3});
+}
+
 /// The line with which a run ends: on one rank, and the same on all of several.
 std::string failure_of(Make const& make, int size) {
   std::vector<std::exception_ptr> thrown;
@@ -168,14 +187,15 @@ TEST(DividedRun, MeasuringOnOneRankAloneIsRefused) {
     EXPECT_NE(line_of(one).find("every rank must do the same"), std::string::npos) << line_of(one);
 }
 
-// Slabs of a periodic cube, each between two others: of a step without a build rows come from both, as thick a layer as
-// lists reach, in one exchange; two votes, on the exchange and on displacements, and one where the step ends.
-TEST(DividedRun, StepsSendWhatGeometryAsks) {
+/// What steps send that need no build, where each row takes so many bytes.
+void expect_bytes_of_geometry(bool with_drag, double of_row) {
   constexpr int size = 4, cells = 14;
   ThreadTeam(size).run([&](Team& team) {
     World world;
     melt<3>(world, cells, 1.0, Boundary::periodic);
     auto& scheme = *static_cast<PairScheme*>(world.parts[1].get());
+    auto& atoms = *dynamic_cast<Ensemble<Newton<3>>*>(scheme.ensembles()[0]);
+    if (with_drag) scheme.internal(atoms, drag, 1.5);
     std::vector<Team::Counts> counts;
     std::vector<std::size_t> builds;
     std::vector<std::chrono::steady_clock::time_point> times;
@@ -187,7 +207,7 @@ TEST(DividedRun, StepsSendWhatGeometryAsks) {
     world.simulation->run(12);
     double const side = scheme.box().length(0), reach = 2.5 + scheme.skin();
     double const planes = std::floor(reach / (side / (2 * cells)));  // of the crystal, of 2 cells^2 atoms
-    double const rows = 2 * planes * 2 * cells * cells, bytes = rows * 64;
+    double const rows = 2 * planes * 2 * cells * cells, bytes = rows * of_row;
     int checked = 0;
     std::uint64_t fewest = 9;
     bool quick = false;
@@ -206,6 +226,14 @@ TEST(DividedRun, StepsSendWhatGeometryAsks) {
       EXPECT_EQ(fewest, 4U);
     }
   });
+}
+
+// Slabs of a periodic cube, each between two others: of a step without a build rows come from both, as thick a layer as
+// lists reach, in one exchange; two votes, on the exchange and on displacements, and one where the step ends. Of a row
+// comes the block of four numbers in which its position is, or all of it, if a law reads velocities.
+TEST(DividedRun, StepsSendWhatGeometryAsks) {
+  expect_bytes_of_geometry(false, 32);
+  expect_bytes_of_geometry(true, 64);
 }
 
 // Rows of others don't come for somebody who asks for sums alone.

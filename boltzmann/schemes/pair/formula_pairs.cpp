@@ -48,6 +48,7 @@ struct ReadyPairs {
       : kernels(boltzmann::kernels().pairs[index_of_dimension(target)]) {
     kernels.has_energy = program.has_energy;
     traits.velocity_dependent = program.velocity_dependent;
+    traits.positions_alone = program.of_p.empty() && program.of_q.empty();
     traits.one_way = !program.antisymmetric;
     traits.changes = field_changed(of, target);
     if (traits.moves()) traits.typed = program.numbers;  // rates may end at once, as those of neighbours do

@@ -181,6 +181,7 @@ class PairScheme final : public Scheme {
 
     bool moves() const { return changes < 0; }
     std::shared_ptr<PairNumbers const> typed = {};  ///< a formula, which is sampled to know its length
+    bool positions_alone = false;                   ///< it reads no other fields of particles
   };
   template <class Law>
   static LawTraits traits_of(Law const& law) {
@@ -190,7 +191,18 @@ class PairScheme final : public Scheme {
             is_uniform<Law>(),
             vortex_law(law),
             -1,
-            reads_outside<Law>()};
+            reads_outside<Law>(),
+            false,
+            {},
+            reads_positions_alone<Law>()};
+  }
+  /// A law says so by `static constexpr bool positions_alone = true`.
+  template <class Law>
+  static constexpr bool reads_positions_alone() {
+    if constexpr (requires { Law::positions_alone; })
+      return Law::positions_alone;
+    else
+      return false;
   }
   /// A struct has its numbers in it; what else has data may have captured them by reference.
   template <class Law>

@@ -139,7 +139,8 @@ void PairScheme::add_near(AnyEnsemble& target, AnyEnsemble& source, PairKernels 
   near->task.cutoff2 = cutoff * cutoff;
   near->factor = factor;
   near->filtered = !filter.start.empty();
-  if (!near->all_pairs()) near->list = neighbourhood_.add(target, source, cutoff, std::move(filter));
+  if (!near->all_pairs())
+    near->list = neighbourhood_.add(target, source, cutoff, std::move(filter), traits.positions_alone);
   near_.push_back(std::move(near));
   changed();
 }
