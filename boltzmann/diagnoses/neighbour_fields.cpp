@@ -56,7 +56,9 @@ class Surroundings {
     std::size_t own = not_among;
     for (auto const& [one, first] : first_)
       if (one == &ensemble) own = first + i;
-    auto const place = inside<D>(box_, ensemble.row(i));
+    std::array<double, 3> place{};  // of all axes: gcc can't see that none beyond D is read
+    auto const here = inside<D>(box_, ensemble.row(i));
+    std::copy(here.begin(), here.end(), place.begin());
     images_.each(place.data(), range_, [&](Turns const& turns, std::array<double, 3> const& image) {
       bool const itself = turns == Turns{};
       cells_.near(image.data(), range_, [&](std::size_t begin, std::size_t end) {
