@@ -145,7 +145,8 @@ template <int W>
 /// copied side by side, in single precision from the block's corner; each target then looks at these. Radii are widened
 /// by what the rounding to steps may be wrong.
 template <int W, int D>
-[[gnu::flatten]] std::size_t near_rows(NearTask const& task, std::size_t begin, std::size_t end, NearRows& out) {
+[[gnu::flatten]] std::size_t near_rows(NearTask const& task, std::size_t begin, std::size_t end,
+                                       NearRows& out) {  // long: one search, whose parts share a dozen numbers
   double longest[3];
   for (int a = 0; a < 3; ++a) longest[a] = largest_block[a] * task.reach;
   Grid const grid = *task.grid;

@@ -317,7 +317,7 @@ double SortedCopy::images_moved() const {
   return std::sqrt(square);
 }
 
-void SortedCopy::add_ghosts(Part const* part, int threads) {
+void SortedCopy::add_ghosts(Part const* part, int threads) {  // long: counts and places images, in one order
   ghost_source_.clear();
   ghost_turns_.clear();
   max_images_ = 0;

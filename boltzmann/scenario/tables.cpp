@@ -521,7 +521,7 @@ OptionTable const& equilibration_options() { return once<make_equilibration_opti
 
 namespace {
 
-std::vector<ScenarioTable> make_tables() {
+std::vector<ScenarioTable> make_tables() {  // long: a table, an entry for each
   static InfluenceOptions influence;
   static RigidBondOptions rigid;
   static ClassFieldOptions field;

@@ -325,7 +325,7 @@ std::vector<Growing> growing() {
       {"no charges at the start",
        space("[0, 0]", "[12, 12]", "periodic", "") +
            "[mesh]\nlaw = \"coulomb\"\nk = 1\nbackground = true\ncells = 16\n" +
-           ensemble("a", "Coulomb", "charge = 1\nnumber = 0\nload = { kind = \"random\" }\n"),
+           ensemble("a", "Coulomb", "integrator = \"rk4\"\ncharge = 1\nnumber = 0\nload = { kind = \"random\" }\n"),
        comes("a", "number = 40, temperature = 1, load = { kind = \"random\" }"), 1e-6},
       {"no gas at the start",
        space("[0, 0]", "[6, 6]", "periodic", "") + "[smooth]\nweight = \"wendland\"\n" +

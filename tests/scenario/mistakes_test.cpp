@@ -249,7 +249,7 @@ std::vector<Mistake> const rows{
      load("{ kind = \"block\", lattice = \"square\", spacing = 4, counts = [1000000, 1000000] }"),
      "20:8",
      {"1000000000000 particles", "GiB"}},
-    {"no particles", load("{ kind = \"random\" }\nnumber = 0"), "21:10", {"number", "1 or more"}},
+    {"no particles", load("{ kind = \"random\" }\nnumber = -1"), "21:10", {"number", "zero or more"}},
     {"negative temperature",
      with("colour = \"red\"", "temperature = \"-3 K\""),
      "21:15",
