@@ -58,8 +58,8 @@ class Images {
   int most(int axis, double reach) const;
   /// Whether there can be such an image within `reach` of the box; there is none beyond a wall that was opened.
   bool exists(Turns const& turns, double reach) const;
-  /// From which turns to which along this axis images of a coordinate are within `reach` of the box: most have none. Not
-  /// of a sheared box.
+  /// From which turns to which along this axis images of a coordinate, inside if it is periodic, are within `reach` of
+  /// the box: most have none. Not of a sheared box.
   struct Range {
     int first = 0, last = 0;
   };

@@ -93,14 +93,13 @@ std::string quoted(std::vector<std::string> const& objects) {
   return words;
 }
 
-/// Names that the linker may take for the same name in other objects. (DW.ref is no code: where the library's function
-/// for exceptions stands, the same for all.)
+/// Names that the linker may take for the same name in other objects.
 std::set<std::string> symbols_of(std::vector<std::string> const& objects) {
   std::set<std::string> names;
   each_line("nm -P -g --defined-only" + quoted(objects),
             [&](std::string const& line) {  // "name type value size", "file:"
               auto const end = line.find(' ');
-              if (end != std::string::npos && !line.starts_with("DW.ref.")) names.insert(line.substr(0, end));
+              if (end != std::string::npos) names.insert(line.substr(0, end));
             });
   return names;
 }

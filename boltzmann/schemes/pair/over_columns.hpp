@@ -9,7 +9,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <vector>
 
 namespace boltzmann::detail {
 
@@ -187,8 +186,8 @@ void gather_separations(double const* rows, std::uint32_t const* entries, std::s
 
 /// Where a gathered number goes: into a column, as number * factor + addend, which rounds at most once.
 struct FieldPlace {
-  double* to = nullptr;
-  double const *factor = nullptr, *addend = nullptr;
+  double* to;
+  double const *factor, *addend;
 };
 
 /// From the entries of a list, packs of them: numbers `first` to `first + count` of a block of the rows.
@@ -220,11 +219,12 @@ class FieldGathering {
     store_pack<W>(minus_zero_, Pack<double, W>(-0.0));
     for (std::size_t f = 0; f < law.of_q.size(); ++f) {
       std::size_t const offset = static_cast<std::size_t>(law.of_q[f]), number = offset % row_block;
-      if (blocks_.empty() || blocks_.back().which != offset / row_block) {
-        blocks_.push_back({offset / row_block, number, {}, nullptr});
-        for (auto& place : blocks_.back().places) place = {work.nowhere, one_, minus_zero_};
+      if (count_ == 0 || blocks_[count_ - 1].which != offset / row_block) {
+        Block& next = blocks_[count_++];
+        next.which = offset / row_block, next.first = number;
+        for (auto& place : next.places) place = {work.nowhere, one_, minus_zero_};
       }
-      auto& block = blocks_.back();
+      Block& block = blocks_[count_ - 1];
       block.places[number] = {work.column(first_column + f), one_, minus_zero_};
       block.gather = gather_blocks<W>[block.first][number - block.first];
       for (Step const* step = program.steps.data(); step < program.steps.data() + steps; ++step)
@@ -234,7 +234,8 @@ class FieldGathering {
     }
   }
   void operator()(double const* rows, std::size_t block_stride, std::uint32_t const* entries, std::size_t packs) const {
-    for (auto const& block : blocks_) block.gather(rows + block.which * block_stride, entries, packs, block.places);
+    for (Block const* block = blocks_; block < blocks_ + count_; ++block)
+      block->gather(rows + block->which * block_stride, entries, packs, block->places);
   }
 
  private:
@@ -251,7 +252,8 @@ class FieldGathering {
   }
 
   alignas(64) double one_[W], minus_one_[W], minus_zero_[W];
-  std::vector<Block> blocks_;
+  Block blocks_[max_columns];  // the first `count_`; a field has a column of its own, so there are no more
+  std::size_t count_ = 0;
 };
 
 /// The loop for these leading steps.
