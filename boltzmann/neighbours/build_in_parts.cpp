@@ -1,10 +1,12 @@
 // Lists over the ranks of a team, built without any rank that knows all particles: ranks agree on where rows lie in the
 // order of all, particles go to whoever advances or reads them, and each rank sorts those alone.
 //
-// The order of rows is that of cells, and cells run along the first axis fastest. So a rank's share is a run of grid
+// The order of rows is that of cells, and cells run along the first axis fastest. So a rank's share are runs of grid
 // lines (in 1D of cells): here *units*, of which every rank knows how many particles each has. What others need of a
-// unit is then geometry.
+// unit is then geometry. One run for each rank is a layer of space, cut anywhere; where there are many ranks, they get
+// columns of whole units.
 #include <boltzmann/neighbours/neighbourhood.hpp>
+#include <boltzmann/neighbours/shares_of_space.hpp>
 
 #include <algorithm>
 #include <bit>
@@ -17,8 +19,12 @@ namespace boltzmann {
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
-/// Of the reach; more than the rounding of the positions with which lists are found.
-constexpr double rounding = 1e-5;
+/// How far those are known whom lists may be asked for: more than the rounding of the positions with which these are
+/// found, and what rows may go before they get new references.
+double wide(double reach, double margin) {
+  constexpr double rounding = 1e-5;  // of the reach
+  return reach * (1 + rounding) + margin;
+}
 
 /// Particles of an ensemble as bits, which come out in ascending order.
 class Numbers {
@@ -39,6 +45,7 @@ class Numbers {
 
 struct Interval {
   double low, high;
+  bool operator==(Interval const&) const = default;
   double distance(Interval const& other) const { return std::max(std::max(0.0, low - other.high), other.low - high); }
   /// Of the point of the other one that is furthest away.
   double furthest(Interval const& other) const { return std::max(std::max(0.0, low - other.low), other.high - high); }
@@ -146,8 +153,12 @@ struct Neighbourhood::Sorting {
   Extents extents = nothing();
   Grid grid, cells;  ///< that sorts rows, and that lists are found with
   int dimension = 1;
-  std::vector<std::size_t> start;           ///< the first row of each unit, and one more
-  std::vector<std::size_t> cut;             ///< the first row of each rank, and one more
+  std::vector<std::size_t> start;  ///< the first row of each unit, and one more
+  struct Run {
+    std::size_t first, rank;
+  };
+  std::vector<Run> runs;                    ///< of rows of one rank, ascending; at the end one that begins behind all
+  std::vector<std::vector<Place>> places;   ///< of each rank: where its rows may be
   std::vector<std::vector<Place>> read_at;  ///< of each rank: where those are whose lists are of these rows
   double wide = 0;                          ///< from how far
   bool read_by_itself = false;
@@ -168,39 +179,83 @@ struct Neighbourhood::Sorting {
     return {grid.edge[axis] * static_cast<double>(unfolded(axis, first)),
             grid.edge[axis] * static_cast<double>(unfolded(axis, last) + 1)};
   }
+  static void add_place(Place const& place, std::vector<Place>& places) {
+    bool const goes_on = !places.empty() && places.back()[0] == place[0] && places.back()[1].high == place[1].low;
+    if (goes_on)
+      places.back()[1].high = place[1].high;
+    else
+      places.push_back(place);
+  }
   /// Where units [first, last] of one line of them are.
   void add_line(std::int64_t line, std::int64_t first, std::int64_t last, std::vector<Place>& places) const {
     Interval const across = cells_along(1, line, line);
     for (std::int64_t begin = first, end = first; begin <= last; begin = end) {
       for (end = begin + 1; end <= last && unfolded(axes()[0], end) == unfolded(axes()[0], end - 1) + 1;) ++end;
-      places.push_back({cells_along(0, begin, end - 1), across});
+      add_place({cells_along(0, begin, end - 1), across}, places);
     }
   }
-  /// Where the rows of a rank may be.
-  std::vector<Place> places_of(std::size_t rank) const {
-    std::vector<Place> places;
-    if (cut[rank] == cut[rank + 1]) return places;
+  /// Where the rows of each rank may be.
+  std::vector<std::vector<Place>> places_of_ranks(std::size_t ranks) const {
+    std::vector<std::vector<Place>> places(ranks);
+    for (auto run = runs.begin(); run + 1 != runs.end(); ++run)
+      if (run->first < run[1].first) add_places(run->first, run[1].first, places[run->rank]);
+    return places;
+  }
+  /// Where these rows may be.
+  void add_places(std::size_t begin, std::size_t end, std::vector<Place>& places) const {
     auto const unit_at = [&](std::size_t row) {
       return std::upper_bound(start.begin(), start.end(), row) - start.begin() - 1;
     };
-    std::int64_t const n = along(0), first = unit_at(cut[rank]), last = unit_at(cut[rank + 1] - 1);
+    std::int64_t const n = along(0), first = unit_at(begin), last = unit_at(end - 1);
     for (std::int64_t line = first / n; line <= last / n; ++line) {
       std::int64_t const from = line == first / n ? first % n : 0, to = line == last / n ? last % n : n - 1;
-      if (from > 0 || to < n - 1) {
+      if (from > 0 || to < n - 1)
         add_line(line, from, to, places);
-        continue;
-      }
-      Interval const across = cells_along(1, line, line);
-      bool const goes_on = !places.empty() && places.back()[0].low == -infinite && places.back()[1].high == across.low;
-      if (goes_on)
-        places.back()[1].high = across.high;
       else
-        places.push_back({Interval{-infinite, infinite}, across});
+        add_place({Interval{-infinite, infinite}, cells_along(1, line, line)}, places);
     }
-    return places;
   }
   std::size_t rank_at(std::size_t row) const {
-    return static_cast<std::size_t>(std::upper_bound(cut.begin(), cut.end(), row) - cut.begin()) - 1;
+    return std::prev(std::upper_bound(runs.begin(), runs.end(), row,
+                                      [](std::size_t k, Run const& run) { return k < run.first; }))
+        ->rank;
+  }
+  /// The indices of units along an axis in the order of space.
+  std::vector<std::int64_t> in_space(int n) const {
+    std::vector<std::int64_t> order(static_cast<std::size_t>(along(n)));
+    for (std::size_t k = 0; k < order.size(); ++k) order[k] = static_cast<std::int64_t>(k);
+    if (axes()[n] < dimension)
+      std::sort(order.begin(), order.end(),
+                [&](auto a, auto b) { return unfolded(axes()[n], a) < unfolded(axes()[n], b); });
+    return order;
+  }
+  /// Adds how many entries these lists had of own particles, of which we know the rows then, and what one takes besides.
+  void add_work(std::deque<List> const& lists, std::vector<std::uint32_t> const* row_of, std::int64_t* work) const {
+    for (auto const of_particle : unit) work[of_particle] += work_of_a_row;
+    if (row_of == nullptr || row_of->size() != copy->ensemble().size()) return;
+    for (auto const& one : lists) {
+      if (one.target != copy) continue;
+      std::uint32_t const* const length = one.list.lengths(list_rings - 1);
+      for (std::size_t k = 0; k < own.size(); ++k)
+        if (std::uint32_t const row = (*row_of)[own[k]]; row < one.list.size()) work[unit[k]] += length[row];
+    }
+  }
+  /// Rows of consecutive units that have one owner.
+  void run_by_units(std::vector<std::uint16_t> const& owner) {
+    for (std::size_t u = 0; u < owner.size(); ++u)
+      if (runs.empty() || runs.back().rank != owner[u]) runs.push_back({start[u], owner[u]});
+    runs.push_back({start.back(), 0});
+  }
+  void run_by_cuts(WorkShares::Cuts const& cuts) {
+    for (std::size_t r = 0; r < cuts.size(); ++r) runs.push_back({cuts[r], r});
+  }
+  PlaneOfLines plane() const {
+    PlaneOfLines plane;
+    for (int n = 0; n < 2; ++n) {
+      plane.count[n] = along(n);
+      if (axes()[n] < dimension) plane.edge[n] = grid.edge[axes()[n]];
+    }
+    return plane;
   }
 };
 
@@ -247,9 +302,8 @@ void Neighbourhood::agree_on_extents(std::vector<Sorting>& all, double reach) {
     }
 }
 
-/// The grids, how many rows each unit has, and where ranks begin. False if cells are folded, so that a unit has no place.
+/// The grids, how many rows each unit has, and whose rows are. False if cells are folded, so that a unit has no place.
 bool Neighbourhood::agree_on_order(std::vector<Sorting>& all, double reach) {
-  std::vector<std::int64_t> counts;
   for (auto& one : all) {
     std::size_t const size = one.copy->ensemble().size();
     if (size == 0) return false;
@@ -259,20 +313,38 @@ bool Neighbourhood::agree_on_order(std::vector<Sorting>& all, double reach) {
     one.cells = Cells::grid_for(one.dimension, extents.images, size + static_cast<std::size_t>(extents.count), reach);
     if (is_folded(one.grid, extents.rows)) return false;
   }
-  for (auto& one : all) {
-    std::size_t const at = counts.size();
-    counts.resize(at + one.units());
+  // As many for all, so that what interacts is shared out alike.
+  auto const& largest = *std::max_element(all.begin(), all.end(), [](auto const& a, auto const& b) {
+    return a.copy->ensemble().size() < b.copy->ensemble().size();
+  });
+  int const ranks = division_->team().size(), layers = layers_for(largest.plane(), wide(reach, margin()), ranks);
+  bool const columns = layers < ranks;
+  std::vector<std::int64_t> counts;
+  for (std::size_t e = 0; e < all.size(); ++e) {
+    Sorting& one = all[e];
+    std::size_t const at = counts.size(), units = one.units();
+    counts.resize(at + (columns ? 2 : 1) * units);
     one.unit = cells_of(one.grid, one.references.data(), static_cast<std::size_t>(one.dimension), one.own.size());
     auto const cells_of_unit = static_cast<std::uint32_t>(one.cells_of_unit());
     for (auto& unit : one.unit) ++counts[at + (unit /= cells_of_unit)];
+    if (columns) one.add_work(lists_, e < row_of_.size() ? &row_of_[e] : nullptr, counts.data() + at + units);
   }
   division_->team().sum(counts);
   auto next = counts.begin();
   for (std::size_t e = 0; e < all.size(); ++e) {
-    all[e].start = {0};
-    for (std::size_t u = 0; u < all[e].units(); ++u)
-      all[e].start.push_back(all[e].start.back() + static_cast<std::size_t>(*next++));
-    all[e].cut = cut(e);
+    Sorting& one = all[e];
+    one.start = {0};
+    for (std::size_t u = 0; u < one.units(); ++u)
+      one.start.push_back(one.start.back() + static_cast<std::size_t>(*next++));
+    if (columns) {
+      cuts_[e].clear();
+      std::vector<std::int64_t> const work(next, next + static_cast<std::ptrdiff_t>(one.units()));
+      next += static_cast<std::ptrdiff_t>(one.units());
+      one.run_by_units(columns_of(one.plane(), {one.in_space(0), one.in_space(1)}, work, layers, ranks));
+    } else {
+      one.run_by_cuts(cut(e));
+    }
+    one.places = one.places_of_ranks(static_cast<std::size_t>(ranks));
   }
   return true;
 }
@@ -281,7 +353,7 @@ bool Neighbourhood::agree_on_order(std::vector<Sorting>& all, double reach) {
 /// further than the margin, or all ranks come to know all.
 void Neighbourhood::find_who_reads(std::vector<Sorting>& all, double reach) const {
   for (auto& source : all) {
-    source.wide = reach * (1 + rounding) + margin();
+    source.wide = wide(reach, margin());
     source.read_at.resize(static_cast<std::size_t>(division_->team().size()));
     for (auto const& target : all) {
       bool const in_list = std::any_of(lists_.begin(), lists_.end(), [&](List const& list) {
@@ -289,7 +361,7 @@ void Neighbourhood::find_who_reads(std::vector<Sorting>& all, double reach) cons
       });
       source.read_by_itself = source.read_by_itself || (in_list && target.copy == source.copy);
       for (std::size_t r = 0; in_list && r < source.read_at.size(); ++r)
-        for (auto const& place : target.places_of(r)) source.read_at[r].push_back(place);
+        source.read_at[r].insert(source.read_at[r].end(), target.places[r].begin(), target.places[r].end());
     }
   }
 }
@@ -352,12 +424,12 @@ void Neighbourhood::build_part(Sorting const& one, std::vector<std::uint32_t> co
   auto& owners = division_->owners_here(one.copy->ensemble());
   Numbers own(one.copy->ensemble().size());
   std::size_t const cells_of_unit = one.cells_of_unit();
-  std::size_t owner = 0;
+  auto run = one.runs.begin();
   for (std::size_t unit = 0, n = 0; n < numbers.size(); ++unit)
     for (std::size_t row = one.start[unit], end = sorted.start()[(unit + 1) * cells_of_unit]; n < end; ++n, ++row) {
       std::size_t const item = sorted.items()[n];
       std::uint32_t const i = numbers[item];
-      while (row >= one.cut[owner + 1]) ++owner;
+      while (row >= run[1].first) ++run;
       part.particles[n] = i;
       part.rows[n] = static_cast<std::uint32_t>(row);
       double const* const from = at.data() + D * item;
@@ -365,12 +437,12 @@ void Neighbourhood::build_part(Sorting const& one, std::vector<std::uint32_t> co
       to[0] = from[0];
       if (D > 1) to[1] = from[1];
       if (D > 2) to[2] = from[2];
-      owners[i] = static_cast<std::uint16_t>(owner);
-      if (owner == rank) own.add(i);
+      owners[i] = static_cast<std::uint16_t>(run->rank);
+      if (run->rank == rank) own.add(i);
     }
   auto places = one.read_at[rank];
   if (!one.read_by_itself)  // but it is asked who is near a place
-    for (auto const& place : one.places_of(rank)) places.push_back(place);
+    places.insert(places.end(), one.places[rank].begin(), one.places[rank].end());
   // Most are found near whole lines, if these are asked first.
   std::stable_partition(places.begin(), places.end(), [](Place const& place) { return place[0].low == -infinite; });
   part.near.axes = one.axes();
@@ -378,7 +450,9 @@ void Neighbourhood::build_part(Sorting const& one, std::vector<std::uint32_t> co
   for (auto const& [first, second] : places)
     part.near.places.push_back({{first.low, second.low}, {first.high, second.high}});
   own_[e].clear();
-  if (one.cut[rank] < one.cut[rank + 1]) own_[e].push_back({one.cut[rank], one.cut[rank + 1]});
+  for (auto stretch = one.runs.begin(); stretch + 1 != one.runs.end(); ++stretch)
+    if (stretch->rank == rank && stretch->first < stretch[1].first)
+      own_[e].push_back({stretch->first, stretch[1].first});
   division_->take(one.copy->ensemble(), own.ascending());
   one.copy->build_part(reach, std::move(part), threads);
 }

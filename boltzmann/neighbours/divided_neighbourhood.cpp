@@ -2,6 +2,7 @@
 // sorted, and between builds hears of those rows that they name. Builds where every rank knows all particles; those in
 // parts are in build_in_parts.cpp.
 #include <boltzmann/neighbours/neighbourhood.hpp>
+#include <boltzmann/neighbours/shares_of_space.hpp>
 
 #include <algorithm>
 #include <atomic>
@@ -150,8 +151,8 @@ WorkShares::Cuts const& Neighbourhood::cut(std::size_t e) {
 
 /// The entries of all ranks' lists, and what rows have taken.
 std::size_t Neighbourhood::take_work(std::size_t entries) {
-  // What is done for each particle besides, and for those of others and images that are known here, in entries.
-  constexpr std::size_t of_a_row = 12, of_another = 6, of_an_image = 3;
+  // What is done for particles of others and images that are known here, in entries.
+  constexpr std::size_t of_another = 6, of_an_image = 3;
   if (!division_->leads(this)) return sum(entries);
   std::vector<WorkShares::Work> mine(copies_.size() + 1);
   mine.back()[0] = entries;
@@ -166,7 +167,7 @@ std::size_t Neighbourhood::take_work(std::size_t entries) {
           mine[e][part] += work_of(k);
         }
     };
-    of_rows([](std::size_t) { return of_a_row; });
+    of_rows([](std::size_t) { return static_cast<std::size_t>(work_of_a_row); });
     if (is_part()) {
       SortedCopy const& copy = copies_[e];
       auto const around = of_another * (copy.known() - own) + of_an_image * (copy.total() - copy.owned());
@@ -184,7 +185,7 @@ std::size_t Neighbourhood::take_work(std::size_t entries) {
   };
   for (std::size_t e = 0; e < copies_.size(); ++e) {
     of_copy(e);
-    shares_[e].took(cuts_[e], work);
+    if (!cuts_[e].empty()) shares_[e].took(cuts_[e], work);  // else shares are columns
   }
   of_copy(copies_.size());
   return std::transform_reduce(work.begin(), work.end(), std::size_t{0}, std::plus{},

@@ -19,6 +19,7 @@
 #include <boltzmann/simulation/simulation.hpp>
 
 #include <gtest/gtest.h>
+#include <tests/bzm/environment.hpp>
 #include <tests/seed.hpp>
 
 #include <algorithm>
@@ -66,21 +67,31 @@ TEST(DividedRun, OfAFewThatAreAheadOfAllOthers) {
   EXPECT_GT(static_cast<PairScheme*>(world.parts[1].get())->neighbourhood().moves(), 10U);
 }
 
+void two_species(World& world, Boundary boundary) {
+  melt<3>(world, 6, 3.0, boundary);
+  auto& scheme = *static_cast<PairScheme*>(world.parts[1].get());
+  auto& atoms = *dynamic_cast<Ensemble<Newton<3>>*>(scheme.ensembles()[0]);
+  auto& small = world.make<Ensemble<Newton<3>>>("small");
+  block_load(small, {Lattice::fcc, 2.3, {3, 3, 3}, {0.9, 0.9, 0.9}});
+  maxwellian_load(small, {.temperature = 1.0, .seed = test_seed(5)});
+  scheme.internal(small, LennardJones{0.7, 1.0}, 1.5);
+  scheme.between(atoms, small, LennardJones{0.6, 1.0}, 2.0);
+  world.simulation = &world.make<Simulation>(scheme, 0.002);
+}
+
 TEST(DividedRun, OfTwoSpecies) {
   for (Boundary const boundary : {Boundary::periodic, Boundary::reflecting})
-    expect_same_bits(
-        [=](World& world) {
-          melt<3>(world, 6, 3.0, boundary);
-          auto& scheme = *static_cast<PairScheme*>(world.parts[1].get());
-          auto& atoms = *dynamic_cast<Ensemble<Newton<3>>*>(scheme.ensembles()[0]);
-          auto& small = world.make<Ensemble<Newton<3>>>("small");
-          block_load(small, {Lattice::fcc, 2.3, {3, 3, 3}, {0.9, 0.9, 0.9}});
-          maxwellian_load(small, {.temperature = 1.0, .seed = test_seed(5)});
-          scheme.internal(small, LennardJones{0.7, 1.0}, 1.5);
-          scheme.between(atoms, small, LennardJones{0.6, 1.0}, 2.0);
-          world.simulation = &world.make<Simulation>(scheme, 0.002);
-        },
-        60, {2, 3});
+    expect_same_bits([=](World& world) { two_species(world, boundary); }, 60, {2, 3});
+}
+
+// As many ranks get them: in columns of space, which are cut along two axes. Of smooth particles, friction and cylinders
+// see DividedScenario.
+TEST(DividedRun, InColumnsOfSpace) {
+  test::Environment environment;
+  environment.set("BOLTZMANN_SHARES", "columns");
+  for (Boundary const boundary : {Boundary::periodic, Boundary::reflecting})
+    expect_same_bits([=](World& world) { two_species(world, boundary); }, 60, {2, 5, 9});
+  expect_same_bits([](World& world) { melt<2>(world, 34, 1.0, Boundary::reflecting); }, 60, {5});
 }
 
 /// A drag between atoms that are near, by what each is.
