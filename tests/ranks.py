@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """What of runs over ranks takes too long for every day (docs/guide/ranks.md tells what came of it):
 
+  tests/ranks.py build/release/bzm shipped [SCENARIO ...]  20 steps of each on 2 threads, 4 and 8 ranks beside 1
   tests/ranks.py build/release/bzm resume [SCENARIO ...]   what 1, 2, 3, 8 ranks began, 1, 2, 3, 8 go on with
   tests/ranks.py build/release/bzm kill [TIMES] [SEED]     kill -9 of any of three ranks at any moment
 
@@ -18,7 +19,7 @@ import tempfile
 import time
 
 ALLOWED = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
-ENVIRONMENT = {**os.environ, **ALLOWED, "OMP_NUM_THREADS": "1"}
+ENVIRONMENT = {**os.environ, **ALLOWED}
 RANKS = (1, 2, 3, 8)
 # Lists, friction between pairs, smooth particles, a mesh, baths, three bodies; the steps of each half.
 SHIPPED = {"copper-3d": 60, "dpd-fluid": 60, "pvdf-shock-3d": 40, "dam-break": 60, "two-stream": 60, "silicon": 60}
@@ -58,10 +59,11 @@ checkpoint = 100
 """
 
 
-def bzm(*arguments, ranks=1):
+def bzm(*arguments, ranks=1, threads=1):
     many = ["--ranks", str(ranks)] if ranks > 1 else []
-    command = [sys.argv[1], *map(str, arguments), *many, "--threads", "1", "--quiet"]
-    return subprocess.Popen(command, env=ENVIRONMENT, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+    command = [sys.argv[1], *map(str, arguments), *many, "--quiet"]
+    environment = {**ENVIRONMENT, "OMP_NUM_THREADS": str(threads)}
+    return subprocess.Popen(command, env=environment, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
 
 
 def finish(process):
@@ -89,6 +91,24 @@ def same_numbers(file, other):
             for name in names[0]
             if isinstance(one[name], h5py.Dataset)
         )
+
+
+def shipped(place, scenarios):
+    wrong = 0
+    folder = pathlib.Path(__file__).resolve().parent.parent / "scenarios"
+    for name in scenarios or sorted(path.stem for path in folder.glob("*.toml")):
+        folders = {}
+        for ranks, threads in ((1, 1), (1, 2), (4, 1), (8, 1)):
+            folders[ranks, threads] = place / f"{name}-{ranks}-{threads}"
+            arguments = ("run", name, "--steps", 20, "--no-sweep", "--out", folders[ranks, threads])
+            finish(bzm(*arguments, ranks=ranks, threads=threads))
+        one = folders.pop((1, 1))
+        different = {key: files for key, folder in folders.items() if (files := differences(one, folder))}
+        wrong += len(different)
+        print(f"{name}: {different or 'the same'}", flush=True)
+        for folder in (one, *folders.values()):
+            shutil.rmtree(folder)
+    return wrong
 
 
 def resume(place, scenarios):
@@ -166,15 +186,15 @@ def kill(place, times, seed):
 
 
 def main():
-    if len(sys.argv) < 3 or sys.argv[2] not in ("resume", "kill"):
+    if len(sys.argv) < 3 or sys.argv[2] not in ("shipped", "resume", "kill"):
         sys.exit(__doc__)
     sys.argv[1] = os.path.abspath(sys.argv[1])
     with tempfile.TemporaryDirectory() as folder:
         place = pathlib.Path(folder)
-        if sys.argv[2] == "resume":
-            wrong = resume(place, sys.argv[3:])
-        else:
+        if sys.argv[2] == "kill":
             wrong = kill(place, *(int(word) for word in (*sys.argv[3:], *("20", "1")[len(sys.argv) - 3:])))
+        else:
+            wrong = {"shipped": shipped, "resume": resume}[sys.argv[2]](place, sys.argv[3:])
     print("nothing differs" if wrong == 0 else f"{wrong} differ")
     sys.exit(min(wrong, 1))
 

@@ -120,6 +120,7 @@ void PairDissipation::couple(AnyEnsemble& target, AnyEnsemble& source, Dissipati
       coupling->typed.code = machine_code(coupling->typed, dissipation_kernels_for(box.dimension(), true).code_width);
     }
     coupling->list = scheme_.neighbourhood().add(*on.ensemble, *of.ensemble, dissipation.range);
+    scheme_.neighbourhood().keep_together();
     coupling->number = number;
     coupling->first = is_first;
     couplings_.push_back(std::move(coupling));

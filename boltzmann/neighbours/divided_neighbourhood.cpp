@@ -43,6 +43,7 @@ std::vector<Stretch> without(std::vector<Stretch> const& all, std::vector<Stretc
 
 void Neighbourhood::divide(Division* division, int threads) {
   if (division) {
+    said_shares();  // refuses what it can't do before the run begins
     // That others have to be built is known from the next refresh on, and in states, as on one rank.
     bool const fit = std::all_of(copies_.begin(), copies_.end(),
                                  [](auto const& copy) { return copy.owned() == copy.ensemble().size(); });
@@ -185,7 +186,7 @@ std::size_t Neighbourhood::take_work(std::size_t entries) {
   };
   for (std::size_t e = 0; e < copies_.size(); ++e) {
     of_copy(e);
-    if (!cuts_[e].empty()) shares_[e].took(cuts_[e], work);  // else shares are columns
+    if (!cuts_[e].empty()) shares_[e].took(cuts_[e], work);
   }
   of_copy(copies_.size());
   return std::transform_reduce(work.begin(), work.end(), std::size_t{0}, std::plus{},

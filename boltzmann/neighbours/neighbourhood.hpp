@@ -67,6 +67,9 @@ class Neighbourhood {
   /// From here on lists are of the rows of this rank's share alone, and builds give each rank a part of space; null: no
   /// more, and what is known stays. For all ranks. Everything that asks for lists is for all ranks then, too.
   void divide(Division* division, int threads);
+  /// Whoever does rows in their order does less where those of a rank are one stretch: they get columns of space only
+  /// where layers would know much more.
+  void keep_together() { columns_worth_ = 0.6; }
   /// Rows that are read besides those in lists: add(ensemble, i) tells a particle; asked for after each build.
   using AlsoRead = std::function<void(std::function<void(AnyEnsemble const& ensemble, std::uint32_t i)> const& add)>;
   void also_read(AlsoRead also) { also_read_ = std::move(also); }  // none: builds need not know all particles
@@ -195,7 +198,8 @@ class Neighbourhood {
   Division* division_ = nullptr;                   // while a run is divided
   std::uint64_t last_division_ = 0, changes_ = 0;  // of owners, when shares were taken
   std::deque<WorkShares> shares_;                  // of the rows of each copy
-  std::deque<WorkShares::Cuts> cuts_;              // where those of ranks begin, since the last build
+  std::deque<WorkShares::Cuts> cuts_;              // where those of ranks begin, since the last build; empty: columns
+  double columns_worth_ = 0.95;                    // as much of what layers know
   AlsoRead also_read_;
   RowExchange exchange_;
   bool complete_ = true;          // every row has its lists

@@ -32,13 +32,19 @@ int first_of(int layer, int layers, int ranks) { return static_cast<int>(std::in
 
 }  // namespace
 
-int layers_for(PlaneOfLines const& plane, double reach, int ranks) {
+SharesOfSpace said_shares() {
   char const* const said = std::getenv("BOLTZMANN_SHARES");
-  std::string_view const wanted = said ? said : "";
-  if (wanted != "" && wanted != "layers" && wanted != "columns")
-    throw Error(fmt::format("BOLTZMANN_SHARES is 'layers' or 'columns', not '{}'", quoted(wanted)));
-  if (wanted == "layers" || plane.count[1] == 1) return ranks;
-  if (wanted == "columns") return static_cast<int>(std::sqrt(ranks));
+  std::string_view const word = said ? said : "";
+  if (word == "layers") return SharesOfSpace::layers;
+  if (word == "columns") return SharesOfSpace::columns;
+  if (word != "") throw Error(fmt::format("BOLTZMANN_SHARES is 'layers' or 'columns', not '{}'", quoted(word)));
+  return SharesOfSpace::chosen;
+}
+
+int layers_for(PlaneOfLines const& plane, double reach, int ranks, double worth) {
+  SharesOfSpace const said = said_shares();
+  if (said == SharesOfSpace::layers || plane.count[1] == 1) return ranks;
+  if (said == SharesOfSpace::columns) return static_cast<int>(std::sqrt(ranks));
   double const width = static_cast<double>(plane.count[0]) * plane.edge[0],
                height = static_cast<double>(plane.count[1]) * plane.edge[1];
   // What a rank knows: its own part of the plane, and what is around it.
@@ -48,14 +54,14 @@ int layers_for(PlaneOfLines const& plane, double reach, int ranks) {
   };
   int best = ranks;
   for (int layers = 1; layers < ranks; ++layers)
-    if (known(layers) < (best == ranks ? 0.95 : 1.0) * known(best)) best = layers;
+    if (known(layers) < (best == ranks ? worth : 1.0) * known(best)) best = layers;
   return best;
 }
 
 std::vector<std::uint16_t> columns_of(PlaneOfLines const& plane, std::vector<std::int64_t> const (&order)[2],
                                       std::vector<std::int64_t> const& work, int layers, int ranks) {
   std::vector<std::uint16_t> owner(plane.lines());
-  // Ranks of layers, as many as have one before, so that layers have as much work as their ranks are to have.
+  // Layer by layer lines go to ranks as if there were no columns, so that each layer has the work of all its ranks.
   std::vector<std::size_t> lines;
   for (auto const second : order[1])
     for (auto const first : order[0]) lines.push_back(static_cast<std::size_t>(first + plane.count[0] * second));

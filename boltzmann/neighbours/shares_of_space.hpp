@@ -17,12 +17,15 @@ struct PlaneOfLines {
   std::size_t lines() const { return static_cast<std::size_t>(count[0] * count[1]); }
 };
 
-/// In how many layers along the second axis ranks have least to know of others, if each layer is cut into columns along
-/// the first one and everybody reads what is no further than `reach` from its own; as many layers as ranks where columns
-/// would not save a twentieth of what is known.
-/// The environment variable BOLTZMANN_SHARES says 'layers' or 'columns' for those who want to compare; Error if it says
+/// What the environment variable BOLTZMANN_SHARES says, for those who compare: 'layers' or 'columns'; Error if it says
 /// something else.
-int layers_for(PlaneOfLines const& plane, double reach, int ranks);
+enum class SharesOfSpace { chosen, layers, columns };
+SharesOfSpace said_shares();
+
+/// In how many layers along the second axis ranks have least to know of others, if each layer is cut into columns along
+/// the first one and everybody reads what is no further than `reach` from its own; as many layers as ranks where
+/// columns leave more than `worth` of what is known in layers. Or what said_shares() has.
+int layers_for(PlaneOfLines const& plane, double reach, int ranks, double worth);
 
 /// Who gets each line: so many layers, each in columns, with as much work for each rank as whole lines allow. `order` has
 /// the places along each axis in the order of space, `work` that of each line.

@@ -19,24 +19,27 @@ namespace {
 // layers 67.2 * (1.05 + 5.6), which is 2.3 times that.
 TEST(SharesOfSpace, ManyRanksGetColumnsFewOnesLayers) {
   PlaneOfLines const plane{{48, 48}, {1.4, 1.4}};
-  EXPECT_EQ(layers_for(plane, 2.8, 64), 8);
-  EXPECT_EQ(layers_for(plane, 2.8, 16), 4);
-  EXPECT_EQ(layers_for(plane, 2.8, 4), 4);
-  EXPECT_EQ(layers_for(plane, 2.8, 2), 2);
-  EXPECT_EQ(layers_for(plane, 2.8, 1), 1);
-  EXPECT_EQ(layers_for({{4000, 1}, {1.4, 1}}, 2.8, 64), 64) << "there is one line of lines";
-  EXPECT_EQ(layers_for({{48, 4000}, {1.4, 1.4}}, 2.8, 64), 64) << "layers of a long box are thick";
+  auto const layers = [](PlaneOfLines const& of, int ranks) { return layers_for(of, 2.8, ranks, 0.95); };
+  EXPECT_EQ(layers(plane, 64), 8);
+  EXPECT_EQ(layers_for(plane, 2.8, 64, 0.45), 8);
+  EXPECT_EQ(layers_for(plane, 2.8, 64, 0.43), 64) << "(196 of 447 are known)";
+  EXPECT_EQ(layers(plane, 16), 4);
+  EXPECT_EQ(layers(plane, 4), 4);
+  EXPECT_EQ(layers(plane, 2), 2);
+  EXPECT_EQ(layers(plane, 1), 1);
+  EXPECT_EQ(layers({{4000, 1}, {1.4, 1}}, 64), 64) << "there is one line of lines";
+  EXPECT_EQ(layers({{48, 4000}, {1.4, 1.4}}, 64), 64) << "layers of a long box are thick";
 }
 
 TEST(SharesOfSpace, AreChosenByAWord) {
   PlaneOfLines const plane{{48, 48}, {1.4, 1.4}};
   test::Environment environment;
   environment.set("BOLTZMANN_SHARES", "layers");
-  EXPECT_EQ(layers_for(plane, 2.8, 64), 64);
+  EXPECT_EQ(layers_for(plane, 2.8, 64, 0.95), 64);
   environment.set("BOLTZMANN_SHARES", "columns");
-  EXPECT_EQ(layers_for(plane, 2.8, 4), 2);
+  EXPECT_EQ(layers_for(plane, 2.8, 4, 0.95), 2);
   environment.set("BOLTZMANN_SHARES", "rows");
-  EXPECT_EQ(message([&] { layers_for(plane, 2.8, 4); }), "BOLTZMANN_SHARES is 'layers' or 'columns', not 'rows'");
+  EXPECT_EQ(message([&] { layers_for(plane, 2.8, 4, 0.95); }), "BOLTZMANN_SHARES is 'layers' or 'columns', not 'rows'");
 }
 
 std::vector<std::int64_t> ascending(std::int64_t count) {
