@@ -119,7 +119,7 @@ class WithDrivenFields final : public Integrator, private Companion {
     if (!together) over_particles([this](std::size_t begin, std::size_t end) { before(begin, end); });
     Motion const motion = inner_->advance(stage, context);
     if (!together)
-      over_particles([this](std::size_t begin, std::size_t end) { after(begin, end, rates_of(ensemble_)); });
+      over_particles([this](std::size_t begin, std::size_t end) { after({begin, end, rates_of(ensemble_), 0}); });
     inner_->accompany(nullptr);
     if (source_) source_->take(together);
     move_ = inner_->largest_move();
@@ -139,27 +139,25 @@ class WithDrivenFields final : public Integrator, private Companion {
 
   // ---- Blocks ----
 
+  /// Particles from `begin` to before `end`, and where rates stand, those of particle `first` first.
+  struct Block {
+    std::size_t begin, end;
+    RatePlaces rates;
+    std::size_t first;
+  };
+
   void around(std::size_t begin, std::size_t end, Own const& own) override {
     if (!source_ || !source_->left()) {
       before(begin, end);
       own(begin, end);
-      return after(begin, end, rates_of(ensemble_));
+      return after({begin, end, rates_of(ensemble_), 0});
     }
     std::size_t const D = ensemble_.rate_stride();
     double numbers[most_numbers * most_particles];
-    fetch_rows(end);
     source_->evaluate(begin, end, numbers, most_particles);
     before(begin, end);
     own(begin, end);
-    after(begin, end, {numbers, D * most_particles, most_particles, 1}, begin);
-  }
-  /// Asks memory for the rows of the block that begins there: what works on one block of rows waits for their first numbers.
-  void fetch_rows(std::size_t begin) {
-    constexpr std::size_t line = 64 / sizeof(double);
-    std::size_t const end = std::min(begin + most_particles, ensemble_.size());
-    if (begin >= end) return;
-    double const* const rows = ensemble_.row(begin);
-    for (std::size_t k = 0; k < (end - begin) * ensemble_.stride(); k += line) __builtin_prefetch(rows + k, 1);
+    after({begin, end, {numbers, D * most_particles, most_particles, 1}, begin});
   }
   void before(std::size_t begin, std::size_t end) {
     if (velocity_ < 0) return;
@@ -168,10 +166,8 @@ class WithDrivenFields final : public Integrator, private Companion {
     else if (stage_ == 1)
       each_velocity(begin, end, [](double& v, double& kept) { v = kept; });
   }
-  /// `first`: the particle whose rates come first.
-  void after(std::size_t begin, std::size_t end, RatePlaces const& rates, std::size_t first = 0) {
-    if (velocity_ >= 0 && stage_ == 0) predict_velocities(begin, end);
-    Block const block{begin, end, first, &rates};
+  void after(Block const& block) {
+    if (velocity_ >= 0 && stage_ == 0) predict_velocities(block.begin, block.end);
     bool const finite = advance_fields(block);
     if (stage_ + 1 < stages()) return;
     diffuse(block);
@@ -189,12 +185,7 @@ class WithDrivenFields final : public Integrator, private Companion {
 
   // ---- Fields ----
 
-  struct Block {
-    std::size_t begin, end, first;
-    RatePlaces const* rates;
-  };
-
-  /// What a stage of the method does with a column of numbers.
+  /// What a stage of the method does with columns of numbers.
   FieldKernel kernel() const {
     FieldKernelTable const& kernels =
         for_instruction_set([](auto set) -> FieldKernelTable const& { return field_kernels<decltype(set)::value>(); });
@@ -213,23 +204,20 @@ class WithDrivenFields final : public Integrator, private Companion {
   }
   /// False if a number is not finite then.
   bool advance_fields(Block const& block) {
-    std::size_t const size = ensemble_.size(), row = ensemble_.stride(), step = block.rates->particle;
+    std::size_t const size = ensemble_.size();
+    constexpr std::size_t together = 16;
+    FieldColumn columns[together];
     bool finite = true;
-    for (std::size_t n = 0; n < numbers_.size(); ++n) {
-      auto const [offset, rate, component] = numbers_[n];
-      double* const start = start_.data() + n * size;
-      double* const sum = sum_.empty() ? start : sum_.data() + n * size;
-      for (std::size_t i = block.begin; i < block.end; i += most_field_numbers) {
-        double const* const rates = block.rates->of(rate, component, i - block.first);
-        FieldColumn const column{ensemble_.row(i) + offset,
-                                 row,
-                                 rates,
-                                 step,
-                                 start + i,
-                                 sum + i,
-                                 std::min(block.end - i, most_field_numbers)};
-        finite = kernel_(column, context_->dt) && finite;
+    for (std::size_t first = 0; first < numbers_.size(); first += together) {
+      std::size_t const count = std::min(numbers_.size() - first, together);
+      for (std::size_t k = 0; k < count; ++k) {
+        auto const& number = numbers_[first + k];
+        double* const start = start_.data() + (first + k) * size + block.begin;
+        columns[k] = {ensemble_.row(block.begin) + number.offset,
+                      block.rates.of(number.rate, number.component, block.begin - block.first), block.rates.particle,
+                      start, sum_.empty() ? start : sum_.data() + (first + k) * size + block.begin};
       }
+      finite = kernel_({columns, count, ensemble_.stride(), block.end - block.begin}, context_->dt) && finite;
     }
     return finite;
   }
@@ -240,9 +228,9 @@ class WithDrivenFields final : public Integrator, private Companion {
     for (std::size_t k = 0; k < ensemble_.driven().size(); ++k) {
       auto const field = ensemble_.driven()[k];
       if (!field.diffuses) continue;
-      double const* const coefficients = block.rates->of(place++, 0, block.begin - block.first);
+      double const* const coefficients = block.rates.of(place++, 0, block.begin - block.first);
       for (std::size_t i = block.begin; i < block.end; ++i) {
-        double const coefficient = coefficients[(i - block.begin) * block.rates->particle];
+        double const coefficient = coefficients[(i - block.begin) * block.rates.particle];
         double const deviation = std::sqrt(2 * coefficient * std::abs(context_->dt));
         // Fields of one particle have ids of their own.
         Stream stream(context_->seed, context_->step, (static_cast<std::uint64_t>(k) << 48) | i,

@@ -7,21 +7,23 @@
 
 namespace boltzmann {
 
-inline constexpr std::size_t most_field_numbers = 128;  ///< of a column
-
-/// One number of each of some particles that follow each other, no more than most_field_numbers.
+/// One number of each of some particles that follow each other.
 struct FieldColumn {
-  double* x = nullptr;  ///< in the first row
-  std::size_t row = 0;  ///< doubles from row to row
-  double const* rate = nullptr;
-  std::size_t rate_step = 1;  ///< doubles from rate to rate
-  double* start = nullptr;    ///< at the start of the step, side by side; of leap-frog: the rate there
-  double* sum = nullptr;      ///< of the weighted rates so far, side by side; for rk4
-  std::size_t count = 0;
+  double* x;  ///< in the first row
+  double const* rate;
+  std::size_t rate_step;  ///< doubles from rate to rate
+  double* start;          ///< at the start of the step, side by side; of leap-frog: the rate there
+  double* sum;            ///< of the weighted rates so far, side by side; for rk4
+};
+struct FieldBlock {
+  FieldColumn const* columns;
+  std::size_t numbers;  ///< of a particle: columns
+  std::size_t row;      ///< doubles from row to row
+  std::size_t particles;
 };
 
-/// Advances the numbers through a stage of a step of length dt; false if one of them is not finite then.
-using FieldKernel = bool (*)(FieldColumn const& column, double dt);
+/// Advances all of them through a stage of a step of length dt; false if a number is not finite then.
+using FieldKernel = bool (*)(FieldBlock const& block, double dt);
 
 /// By stage.
 struct FieldKernelTable {

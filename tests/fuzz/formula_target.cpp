@@ -1,27 +1,20 @@
 #include "formula_target.hpp"
 
+#include "formula_results.hpp"
+
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/units.hpp>
-#include <boltzmann/formulas/evaluate.hpp>
 #include <boltzmann/formulas/formula.hpp>
-#include <boltzmann/formulas/formula_program.hpp>
-
-#include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <memory>
 #include <stdexcept>
 
 namespace boltzmann::fuzz {
 namespace {
-
-constexpr int W = 4;  // for which there is machine code on most machines
-constexpr std::size_t packs = 3;
 
 /// The names of a law between particles: inputs 0 to 6.
 NamesInFormula names_of_a_law(ExpressionGraph& graph, UnitSystem const& units) {
@@ -45,40 +38,6 @@ void need_place(FormulaError const& error, std::string const& text) {
     throw std::logic_error(std::string("not one line with a place: ") + error.what());
 }
 
-/// Of columns 0 to 4, of which column 3 is the square of a distance, and two scalars of the row.
-std::vector<double> results_of(FormulaProgram const& program) {
-  static auto const work = std::make_unique<detail::Workspace<W>>();
-  work->set_constants(program);
-  for (std::size_t k = 0; k < 2; ++k) work->set_scalar(program.first_row_input() + k, 0.5 + static_cast<double>(k));
-  for (std::size_t k = 0; k < 5; ++k)
-    for (std::size_t pair = 0; pair < packs * W; ++pair)
-      work->column(k)[pair] = 0.31 * static_cast<double>(k + pair) - (k == 3 ? 0 : 0.62);
-  detail::run_row<W>(*work, program);
-  detail::run_program<W>(*work, program, packs);
-  std::vector<double> results;
-  for (auto const& result : program.results)
-    for (std::size_t pair = 0; pair < packs * W; ++pair)
-      results.push_back(work->place(result)[result.scalar ? 0 : pair]);
-  return results;
-}
-
-/// Whether the interpreter rounds a b + c once, as machine code does: that depends on how this file is optimised.
-bool rounds_once() {
-  if (!detail::rounds_as_machine_code<W>) return false;
-  auto const work = std::make_unique<detail::Workspace<W>>();
-  double const numbers[] = {1 + 0x1p-30, 1 - 0x1p-30, -1};
-  for (std::size_t k = 0; k < 3; ++k) std::fill_n(work->column(k), W, numbers[k]);
-  Step const step{Instruction::fuse, Operation::exp, {3, false}, {0, false}, {1, false}, {2, false}};
-  detail::run_steps<W>(*work, &step, 1, 1);
-  return work->column(3)[0] == -0x1p-60;
-}
-
-void need_same(std::vector<double> const& a, std::vector<double> const& b) {
-  for (std::size_t k = 0; k < a.size(); ++k)
-    if (std::bit_cast<std::uint64_t>(a[k]) != std::bit_cast<std::uint64_t>(b[k]) && !(a[k] != a[k] && b[k] != b[k]))
-      throw std::logic_error(fmt::format("{} interpreted and {} by machine code", a[k], b[k]));
-}
-
 bool as_a_law(std::string const& text, UnitSystem const& units) try {
   ExpressionGraph graph;
   auto const value = read_formula_text(text, names_of_a_law(graph, units), 3, graph);
@@ -86,12 +45,7 @@ bool as_a_law(std::string const& text, UnitSystem const& units) try {
   try {
     results.push_back(graph.derivative(value.components[0], 3));
     results.push_back(graph.replaced(value.components[0], {{3, graph.number(4)}}));
-    std::vector<std::uint32_t> const columns{0, 1, 2, 3, 5}, rows{4, 6};
-    auto program = make_program(graph, results, columns, rows, 4);
-    auto const interpreted = results_of(program);
-    program.code = machine_code(program, W);
-    static bool const comparable = rounds_once();
-    if (auto const results = results_of(program); comparable) need_same(interpreted, results);
+    run_in_every_way(make_program(graph, results, fuzzed_columns, fuzzed_scalars, first_gathered));
     for (auto const e : results) graph.value(e, {0.1, 0.2, 0.3, 0.14, 1, -2, 3});
   } catch (FormulaError const&) {
     throw;
