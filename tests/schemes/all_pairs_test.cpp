@@ -90,10 +90,20 @@ double largest(std::vector<double> const& a) {
   return most;
 }
 
+/// The kernels over all pairs alone: those of lists needn't be compiled for every width here.
 template <int W, class P, class Q, class Law>
-void compare(Ensemble<P> const& target, Ensemble<Q> const& source, Law const& law, char const* what) {
-  SCOPED_TRACE(testing::Message() << what << ", W = " << W << ", " << target.size() << " by " << source.size());
-  constexpr auto kernels = near_kernels<P, Q, Law, W>();
+constexpr PairKernels all_pairs_kernels() {
+  PairKernels kernels;
+  kernels.all = detail::over_all<detail::Pass::influence, W, P, Q, Law>;
+  kernels.all_measure = detail::over_all<detail::Pass::measure, W, P, Q, Law>;
+  kernels.has_energy = detail::gives_energy<P, Q, Law>;
+  return kernels;
+}
+
+template <class P, class Q, class Law>
+void compare(PairKernels const& kernels, int width, Ensemble<P> const& target, Ensemble<Q> const& source,
+             Law const& law, char const* what) {
+  SCOPED_TRACE(testing::Message() << what << ", W = " << width << ", " << target.size() << " by " << source.size());
   ASSERT_TRUE(kernels.has_energy);
   Vector<P::dimension> low{}, high{};
   for (int a = 0; a < P::dimension; ++a) low[a] = -1, high[a] = 1;
@@ -118,6 +128,11 @@ void compare(Ensemble<P> const& target, Ensemble<Q> const& source, Law const& la
     EXPECT_TRUE(run(kernels, target, source, law, ends) == whole) << "ranges of " << grain;
   }
   EXPECT_TRUE(run(kernels, target, source, law, {target.size() / 3}, true).influence == whole.influence);
+}
+
+template <int W, class P, class Q, class Law>
+void compare(Ensemble<P> const& target, Ensemble<Q> const& source, Law const& law, char const* what) {
+  compare(all_pairs_kernels<W, P, Q, Law>(), W, target, source, law, what);
 }
 
 template <int W, class P, class Law>
@@ -182,7 +197,7 @@ TYPED_TEST(AllPairs, NothingButTheOwnPairIsNotANumber) {
   stars[0].position = {0, 0, 0};  // where rows behind the last one are
   stars[3].position = stars[11].position;
   auto const law = gravity(1);
-  auto const out = run(near_kernels<Kepler<3>, Kepler<3>, LaplaceLaw, W>(), stars, stars, law, {});
+  auto const out = run(all_pairs_kernels<W, Kepler<3>, Kepler<3>, LaplaceLaw>(), stars, stars, law, {});
   for (std::size_t i = 0; i < stars.size(); ++i)
     for (std::size_t c = 0; c < 3; ++c)
       EXPECT_EQ(std::isfinite(out.influence[3 * i + c]), i != 3 && i != 11) << "particle " << i;
@@ -228,7 +243,7 @@ TYPED_TEST(AllPairs, VorticesInDoubleAndInSinglePrecision) {
     SCOPED_TRACE(testing::Message() << count << " vortices, W = " << W);
     auto const each = [&](auto const& law) {
       using Law = std::remove_cvref_t<decltype(law)>;
-      constexpr auto in_double = near_kernels<V, V, Law, W>();
+      constexpr auto in_double = all_pairs_kernels<W, V, V, Law>();
       compare_velocities(in_double, vortices, law, 1e-14);
       compare_velocities(in_single_precision<W, V, V, Law>(in_double), vortices, law, 1e-5);
     };

@@ -1,0 +1,2 @@
+#define SHIPPED_KERNELS template
+#include "shipped_kernels.hpp"
