@@ -1,7 +1,7 @@
 // bzm accuracy: error against cost, so that a tolerance is chosen by looking.
 #include <boltzmann/bzm/commands.hpp>
 #include <boltzmann/core/error.hpp>
-#include <boltzmann/pictures/drawings.hpp>
+#include <boltzmann/pictures/draw_arrays.hpp>
 #include <boltzmann/pictures/figure.hpp>
 #include <boltzmann/scenario/scenario.hpp>
 #include <boltzmann/schemes/multipole/multipole_scheme.hpp>

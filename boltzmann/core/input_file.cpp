@@ -1,3 +1,4 @@
+// Files that are named: regular ones only, line by line.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/input_file.hpp>
 

@@ -1,3 +1,4 @@
+// Counting open brackets and dots outside quotes and comments.
 #include <boltzmann/core/nesting.hpp>
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// The table of LAMMPS' styles, and what follows from their units of length, mass and time.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/quantity_text.hpp>
 #include <boltzmann/core/unit_style.hpp>
@@ -45,8 +46,6 @@ Quantity<d> one(std::string_view unit) {
 }
 
 }  // namespace
-
-std::span<UnitStyle const> unit_styles() { return styles; }
 
 std::vector<std::string> unit_style_names() {
   std::vector<std::string> names;

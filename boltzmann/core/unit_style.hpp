@@ -24,7 +24,6 @@ struct UnitStyle {
   std::string unit(Dimension) const;
 };
 
-std::span<UnitStyle const> unit_styles();
 std::vector<std::string> unit_style_names();
 /// Error with all names, and the nearest.
 UnitStyle const& unit_style(std::string_view name);

@@ -1,3 +1,4 @@
+// What somebody types, evaluated for the particles of each ensemble: means and sums, and histograms.
 #include <boltzmann/diagnoses/formula_diagnosis.hpp>
 
 #include <boltzmann/particles/particle_formula.hpp>

@@ -1,3 +1,4 @@
+// The leap-frog with rigid bonds (RATTLE), and velocities put right after baths.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/dissipation/rigid_motion.hpp>
 

@@ -1,3 +1,4 @@
+// From the texts of friction and weight to a program, and which values they may have.
 #include <boltzmann/dissipation/typed_friction.hpp>
 
 #include <boltzmann/formulas/evaluate.hpp>

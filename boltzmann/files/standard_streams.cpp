@@ -1,3 +1,4 @@
+// Descriptors 0 to 2, opened on /dev/null where nobody has.
 #include <boltzmann/files/standard_streams.hpp>
 
 #include <fcntl.h>

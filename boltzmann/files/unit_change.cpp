@@ -1,3 +1,4 @@
+// Units by name, looked up in styles and formats, and factors to them.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/quantity_text.hpp>
 #include <boltzmann/files/unit_change.hpp>

@@ -1,3 +1,4 @@
+// Who is in which register, and who has to leave when there is none.
 #include <boltzmann/core/pack_math.hpp>
 #include <boltzmann/formulas/code_registers.hpp>
 #include <boltzmann/formulas/machine_code.hpp>

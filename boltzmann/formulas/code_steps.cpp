@@ -1,3 +1,4 @@
+// One instruction for each operation; several for exp and for one over a root.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/pack_math.hpp>
 #include <boltzmann/formulas/code_steps.hpp>

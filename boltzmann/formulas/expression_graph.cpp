@@ -1,3 +1,4 @@
+// Normal forms: terms merged and sorted, numbers folded; and the rules of differentiation.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/formulas/expression_graph.hpp>
 

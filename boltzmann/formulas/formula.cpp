@@ -1,3 +1,4 @@
+// Formulas of one particle, and of many: sums, level by level.
 #include <boltzmann/formulas/formula.hpp>
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// From a graph to steps: which values are needed when, and where they are kept.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/formulas/formula_program.hpp>
 

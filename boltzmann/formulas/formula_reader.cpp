@@ -1,3 +1,4 @@
+// A recursive descent over a formula's text, with dimensions checked on the way.
 #include <boltzmann/core/quantity_text.hpp>
 #include <boltzmann/formulas/formula_reader.hpp>
 

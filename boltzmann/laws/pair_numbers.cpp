@@ -1,3 +1,4 @@
+// Sampling a law over distances: its wells, slopes and singularities.
 #include <boltzmann/laws/pair_numbers.hpp>
 
 #include <algorithm>

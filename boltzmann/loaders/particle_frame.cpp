@@ -1,3 +1,4 @@
+// Columns of a file into fields of ensembles, with the refusals of what does not fit.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/quantity_text.hpp>
 #include <boltzmann/loaders/particle_frame.hpp>

@@ -1,3 +1,4 @@
+// Lines, words and numbers, and what is said of those that are none.
 #include <boltzmann/loaders/text_lines.hpp>
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// x, y, z; xx, xy, ...; numbers.
 #include <boltzmann/particles/component_words.hpp>
 
 namespace boltzmann {

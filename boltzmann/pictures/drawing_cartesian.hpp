@@ -2,7 +2,7 @@
 // draw_cartesian() and the pictures of a simulation.
 #pragma once
 
-#include <boltzmann/pictures/drawings.hpp>
+#include <boltzmann/pictures/draw_arrays.hpp>
 
 #include <array>
 #include <cstddef>

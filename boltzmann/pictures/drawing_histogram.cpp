@@ -1,6 +1,6 @@
 // Histograms: how often values occur, as stairs.
 #include <boltzmann/core/error.hpp>
-#include <boltzmann/pictures/drawings.hpp>
+#include <boltzmann/pictures/draw_arrays.hpp>
 
 #include <algorithm>
 #include <cmath>

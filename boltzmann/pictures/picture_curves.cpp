@@ -1,7 +1,7 @@
 // Functions that diagnoses have gathered over a run, radial distributions and the like: from the run, or from its files.
 #include <boltzmann/files/csv.hpp>
 #include <boltzmann/files/text_file.hpp>
-#include <boltzmann/pictures/drawings.hpp>
+#include <boltzmann/pictures/draw_arrays.hpp>
 #include <boltzmann/pictures/picture_scene.hpp>
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 // The flow of vortices: vorticity, velocity and Q in colours, on slices in 3D; streamlines in 2D.
 #include <boltzmann/diagnoses/smooth_field.hpp>
 #include <boltzmann/diagnoses/vortex_measures.hpp>
-#include <boltzmann/pictures/drawings.hpp>
+#include <boltzmann/pictures/draw_arrays.hpp>
 #include <boltzmann/pictures/picture_scene.hpp>
 #include <boltzmann/pictures/streamlines.hpp>
 #include <boltzmann/schemes/vortices/vortex_flow.hpp>

@@ -1,5 +1,5 @@
 // How often a quantity of the particles has which value.
-#include <boltzmann/pictures/drawings.hpp>
+#include <boltzmann/pictures/draw_arrays.hpp>
 #include <boltzmann/pictures/picture_scene.hpp>
 
 #include <algorithm>

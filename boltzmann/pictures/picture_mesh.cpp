@@ -1,6 +1,6 @@
 // What a mesh has on its nodes.
 #include <boltzmann/diagnoses/field_measures.hpp>
-#include <boltzmann/pictures/drawings.hpp>
+#include <boltzmann/pictures/draw_arrays.hpp>
 #include <boltzmann/pictures/picture_scene.hpp>
 
 #include <fmt/format.h>

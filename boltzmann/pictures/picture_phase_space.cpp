@@ -1,6 +1,6 @@
 // Two quantities of every particle, one over the other; and their way through all frames.
 #include <boltzmann/files/trajectory.hpp>
-#include <boltzmann/pictures/drawings.hpp>
+#include <boltzmann/pictures/draw_arrays.hpp>
 #include <boltzmann/pictures/picture_scene.hpp>
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // Profiles of matter along an axis.
 #include <boltzmann/diagnoses/profile.hpp>
 #include <boltzmann/files/text_file.hpp>
-#include <boltzmann/pictures/drawings.hpp>
+#include <boltzmann/pictures/draw_arrays.hpp>
 #include <boltzmann/pictures/picture_scene.hpp>
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // Smooth fields of particles as maps, contours and bands.
 #include <boltzmann/pictures/contours.hpp>
-#include <boltzmann/pictures/drawings.hpp>
+#include <boltzmann/pictures/draw_arrays.hpp>
 #include <boltzmann/pictures/picture_scene.hpp>
 
 #include <fmt/format.h>

@@ -2,7 +2,7 @@
 #include <boltzmann/diagnoses/spectrum_of.hpp>
 #include <boltzmann/diagnoses/wave_spectrum.hpp>
 #include <boltzmann/files/text_file.hpp>
-#include <boltzmann/pictures/drawings.hpp>
+#include <boltzmann/pictures/draw_arrays.hpp>
 #include <boltzmann/pictures/picture_scene.hpp>
 
 #include <fmt/format.h>

@@ -2,7 +2,7 @@
 #include <boltzmann/diagnoses/spectrum.hpp>
 #include <boltzmann/files/csv.hpp>
 #include <boltzmann/files/text_file.hpp>
-#include <boltzmann/pictures/drawings.hpp>
+#include <boltzmann/pictures/draw_arrays.hpp>
 #include <boltzmann/pictures/picture_scene.hpp>
 
 #include <algorithm>

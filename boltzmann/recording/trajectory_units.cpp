@@ -1,3 +1,4 @@
+// The units that MDAnalysis knows.
 #include <boltzmann/recording/trajectory_units.hpp>
 
 #include <boltzmann/core/quantity_text.hpp>

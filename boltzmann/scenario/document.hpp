@@ -49,7 +49,7 @@ struct Item {
   Kind kind = Kind::table;
   Place place;
   Place end{0, 0, -1};                ///< behind its last character; line 0: it is not a value of the file's text
-  int written = -1;                   ///< which of Recorder's values it belongs to, of a table which of its tables
+  int written = -1;                   ///< which of KeyNotes's values it belongs to, of a table which of its tables
   std::string text;                   ///< of a text; a date as it was written
   mutable std::string absolute = {};  ///< of the path of a file that has been read: the stored scenario must find it
   std::int64_t integer = 0;

@@ -30,7 +30,7 @@ void formula_mistake(Item const& item, std::string_view key, FormulaError const&
 
 std::optional<ParticleFormula> read_formula(Item const& item, std::string_view key, ParticleNames const& names,
                                             std::vector<std::string> const& unknown, Reading& reading) {
-  if (reading.context.recorder) reading.context.recorder->plain(item, item.is_number() ? "number" : "text");
+  if (reading.context.notes) reading.context.notes->plain(item, item.is_number() ? "number" : "text");
   if (item.is_number()) return ParticleFormula(fmt::format("({})", item.number), names);
   if (!item.is(Item::Kind::text)) {
     reading.mistake(item.place, fmt::format("{}: a formula in quotes is needed, e.g. \"sin(2*pi*x)\", not {}", key,

@@ -93,8 +93,8 @@ void check_positive(Section const& section, std::vector<FieldValue> const& value
   for (auto const& value : values)
     for (char const* key : {"mass", "density", "range"})
       if (value.field.name == key && (value.field.name == "mass" || kind.matter != Matter::none)) {
-        if (Item const* item = section.item(key); item && reading.context.recorder)
-          reading.context.recorder->narrow(*item, positive);
+        if (Item const* item = section.item(key); item && reading.context.notes)
+          reading.context.notes->narrow(*item, positive);
         for (double const number : value.values)
           if (!(number > 0)) {
             reading.mistake(section.place(key),

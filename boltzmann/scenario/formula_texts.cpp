@@ -46,14 +46,14 @@ std::vector<FormulaParameter> read_formula_parameters(Section& section, Reading&
     FormulaParameter parameter{entry->key, 0, {}};
     if (item.is_number()) {
       parameter.value = item.number;
-      if (reading.context.recorder) reading.context.recorder->plain(item, "number");
+      if (reading.context.notes) reading.context.notes->plain(item, "number");
     } else if (item.is(Item::Kind::text)) {
       bool const good = catch_errors(reading, item.place, [&] {
         parameter.dimension = parse_quantity(item.text).dimension;
         parameter.value = in_units(item.text, parameter.dimension, reading.context.units);
       });
       if (!good) continue;
-      if (reading.context.recorder) reading.context.recorder->plain(item, "text");
+      if (reading.context.notes) reading.context.notes->plain(item, "text");
     } else {
       reading.mistake(item.place, fmt::format("parameters.{}: a quantity is needed, \"0.1 eV\", not {}", entry->key,
                                               describe(item)));

@@ -68,7 +68,7 @@ void read_wall(Item const& table, Reading& reading) {
 void read_step(Item const& item, ReadRun& run, Reading& reading) {
   if (item.is(Item::Kind::text) && item.text == "courant") {
     run.courant = 1;
-    if (reading.context.recorder) reading.context.recorder->plain(item, "text");
+    if (reading.context.notes) reading.context.notes->plain(item, "text");
   } else if (item.is(Item::Kind::table)) {
     Section section(item, "step", reading.context);
     run.courant = item.entries.empty() ? section.need_quantity("courant", dimensions::none, "courant = 0.5", positive)
@@ -91,7 +91,7 @@ ReadEnsemble* Reading::ensemble(Item const& word, std::string_view key) {
   auto const name = read_text(word, key, context);
   if (!name) return nullptr;
   auto const names = ensemble_names();
-  if (context.recorder) context.recorder->word(word, names);
+  if (context.notes) context.notes->word(word, names);
   for (auto& e : ensembles)
     if (e.name == *name) return &e;
   // One whose own name could not be read may be the one that is meant.

@@ -270,7 +270,7 @@ class ClassReader {
   /// Numbers are formulas, too; a list is that of the components of a vector.
   std::optional<std::string> formula_of(Item const& item, std::string const& whole) {
     if (item.is_number()) {
-      if (reading_.context.recorder) reading_.context.recorder->plain(item, "number");
+      if (reading_.context.notes) reading_.context.notes->plain(item, "number");
       return fmt::format("({})", item.number);
     }
     return read_text(item, whole, reading_.context);

@@ -254,7 +254,7 @@ void read_output(Section& document, Item& resolved, Reading& reading) {
 void read_stop(Reading& reading) {
   if (!reading.run.stop) return;
   Item const& item = *reading.run.stop;
-  if (reading.context.recorder) reading.context.recorder->plain(item, "text");
+  if (reading.context.notes) reading.context.notes->plain(item, "text");
   if (!item.is(Item::Kind::text))
     return reading.mistake(
         item.place, fmt::format("stop: a condition in quotes is needed, e.g. \"time > 5\", not {}", describe(item)));

@@ -165,8 +165,8 @@ std::unique_ptr<ScenarioSimulation> parse(std::string const& text, std::string c
   if (overrides.sweep_run) choose_run(document, *overrides.sweep_run, mistakes);
   if (!mistakes.none()) throw ScenarioErrors(mistakes.lines());
 
-  Recorder recorder(document, text, overrides.by_page);
-  Reading reading{{mistakes, UnitSystem::si(), files.empty() ? folder : files, &recorder, overrides.by_page},
+  KeyNotes notes(document, text, overrides.by_page);
+  Reading reading{{mistakes, UnitSystem::si(), files.empty() ? folder : files, &notes, overrides.by_page},
                   std::make_unique<ScenarioSimulation>(),
                   true,
                   0,
@@ -182,11 +182,11 @@ std::unique_ptr<ScenarioSimulation> parse(std::string const& text, std::string c
   } catch (std::bad_alloc const&) {
     throw Error(fmt::format("{}: the scenario needs more memory than this machine has", file));
   }
-  if (!mistakes.none()) throw ScenarioErrors(mistakes.lines(), recorder.absent());
+  if (!mistakes.none()) throw ScenarioErrors(mistakes.lines(), notes.absent());
   if (reading.result->sweep) reading.result->sweep->text = sweep;
   reading.result->resolved = write_document(document);
-  reading.result->parameters = recorder.parameters();
-  reading.result->absent = recorder.absent();
+  reading.result->parameters = notes.parameters();
+  reading.result->absent = notes.absent();
   return std::move(reading.result);
 }
 

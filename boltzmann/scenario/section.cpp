@@ -55,7 +55,7 @@ std::optional<double> read_quantity(Item const& item, std::string_view name, Dim
     context.mistakes.add(item.place, fmt::format("{}: {} is out of range; it must be {}", name, shown, range.text()));
     return std::nullopt;
   }
-  if (context.recorder) context.recorder->number(item, dimension, range, context.units);
+  if (context.notes) context.notes->number(item, dimension, range, context.units);
   return value;
 }
 
@@ -95,13 +95,13 @@ std::optional<std::int64_t> read_integer(Item const& item, std::string_view name
     context.mistakes.add(item.place, fmt::format("{}: {} is out of range; it must be {}", name, value, allowed));
     return std::nullopt;
   }
-  if (context.recorder) context.recorder->integer(item, low, high);
+  if (context.notes) context.notes->integer(item, low, high);
   return value;
 }
 
 std::optional<std::string> read_text(Item const& item, std::string_view name, ReadContext& context) {
   if (item.is(Item::Kind::text)) {
-    if (context.recorder) context.recorder->plain(item, "text");
+    if (context.notes) context.notes->plain(item, "text");
     return item.text;
   }
   context.mistakes.add(item.place, fmt::format("{}: a text is needed, not {}", name, describe(item)));
@@ -126,7 +126,7 @@ std::optional<std::string> read_word(Item const& item, std::string_view name, st
                                      ReadContext& context) {
   auto text = read_text(item, name, context);
   if (!text) return std::nullopt;
-  if (context.recorder) context.recorder->word(item, words);
+  if (context.notes) context.notes->word(item, words);
   if (std::find(words.begin(), words.end(), *text) != words.end()) return text;
   context.mistakes.add(item.place,
                        fmt::format("unknown {} '{}'; there {} {}{}", name, *text, words.size() == 1 ? "is" : "are",
@@ -193,7 +193,7 @@ bool Section::boolean(std::string_view key, bool otherwise) {
   Item const* item = find(key);
   if (!item) return otherwise;
   if (item->is(Item::Kind::boolean)) {
-    if (context_.recorder) context_.recorder->plain(*item, "boolean");
+    if (context_.notes) context_.notes->plain(*item, "boolean");
     return item->boolean;
   }
   mistake(item->place, fmt::format("{}: true or false is needed, not {}", key, describe(*item)));
@@ -232,7 +232,7 @@ void Section::finish() {
   };
   for (auto const& told : told_)
     if (in(allowed_, told.option.key) && !in(refused_, told.option.key))
-      context_.recorder->key(table_, told, context_.units);
+      context_.notes->key(table_, told, context_.units);
   for (auto const& entry : table_.entries)
     if (!in(allowed_, entry.key) && !in(known_, entry.key))
       mistake(entry.place,

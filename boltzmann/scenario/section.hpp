@@ -8,7 +8,7 @@
 #include <boltzmann/core/unit_system.hpp>
 #include <boltzmann/core/words.hpp>
 #include <boltzmann/scenario/document.hpp>
-#include <boltzmann/scenario/recorder.hpp>
+#include <boltzmann/scenario/key_notes.hpp>
 
 #include <cstdint>
 #include <limits>
@@ -22,10 +22,10 @@ namespace boltzmann {
 /// What all readers share.
 struct ReadContext {
   Mistakes& mistakes;
-  UnitSystem units;              ///< of the numbers to come
-  std::string folder;            ///< of the scenario file: where its other files are
-  Recorder* recorder = nullptr;  ///< notes what has been read; null: nobody does
-  bool confined = false;         ///< overrides name only files in `folder`
+  UnitSystem units;           ///< of the numbers to come
+  std::string folder;         ///< of the scenario file: where its other files are
+  KeyNotes* notes = nullptr;  ///< notes what has been read; null: nobody does
+  bool confined = false;      ///< overrides name only files in `folder`
 };
 
 /// A finite number in the base from 0.5 or "0.5 ps"; a mistake otherwise. `name` is the key.
@@ -112,7 +112,7 @@ class Section {
   void explain_word(std::string key, std::string_view doc, std::vector<std::string> words = {}, std::string value = "");
   /// A key that would mean nothing beside the others: a mistake if it is there; nobody is told of it.
   void refuse(std::string_view key, std::string const& what);
-  bool explained() const { return context_.recorder && context_.recorder->with_keys(); }
+  bool explained() const { return context_.notes && context_.notes->with_keys(); }
 
   /// Reports every key that nobody asked for.
   void finish();

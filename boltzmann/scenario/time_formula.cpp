@@ -51,7 +51,7 @@ std::vector<TimeFormula> read_time_formulas(Section& section, OptionTable& keys,
     Option const option = *keys.find(key);
     section.find(key);
     section.explain(option);
-    if (reading.context.recorder) reading.context.recorder->plain(*item, "text");
+    if (reading.context.notes) reading.context.notes->plain(*item, "text");
     int const by_space = option.kind.by_space * std::max(reading.dimension, 1);
     formulas.push_back(
         {key, read_formula_of_time(*item, key, *option.kind.dimension * pow(dimensions::length, by_space), reading)});

@@ -1,3 +1,4 @@
+// Sampling a typed law where its neighbours are.
 #include <boltzmann/scenario/typed_law.hpp>
 
 #include <algorithm>

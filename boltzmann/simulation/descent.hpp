@@ -53,7 +53,7 @@ class Descent {
   std::uint64_t seed_;
   int threads_;
   std::function<void()> influences_;
-  double mixing_, power_ = 0, force2_ = 0;
+  double mixing_;
   int downhill_ = 0;
   LargestForce largest_;
   std::size_t separated_ = 0;

@@ -1,9 +1,9 @@
 // Web browser: an open socket of a page: what waits to be sent to it, and its signs of life. Private to this room.
 #pragma once
 
+#include <boltzmann/window/asio_types.hpp>
 #include <boltzmann/window/web_request.hpp>
 #include <boltzmann/window/web_server.hpp>
-#include <boltzmann/window/web_sockets.hpp>
 
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/websocket/stream.hpp>

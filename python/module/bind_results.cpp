@@ -3,7 +3,7 @@
 
 #include <boltzmann/files/csv.hpp>
 #include <boltzmann/files/trajectory.hpp>
-#include <boltzmann/pictures/drawings.hpp>
+#include <boltzmann/pictures/draw_arrays.hpp>
 #include <boltzmann/pictures/error_bars.hpp>
 #include <boltzmann/pictures/figure.hpp>
 #include <boltzmann/scenario/stored_pictures.hpp>

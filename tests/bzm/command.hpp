@@ -124,4 +124,18 @@ inline std::size_t lines_in(std::string const& text) {
   return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
 }
 
+inline bool has(std::string const& text, std::string const& part) { return text.find(part) != std::string::npos; }
+
+/// Has the scenario that `bzm new gas` writes.
+struct GasFolder : Folder {
+  GasFolder() { EXPECT_EQ(bzm({"new", "gas"}, string()).status, 0); }
+  Outcome run(std::vector<std::string> more) const {
+    more.insert(more.begin(), {"run", "gas.toml"});
+    return bzm(more, string());
+  }
+  Outcome shell(std::string const& line) const {
+    return Process({"/bin/sh", "-c", "PATH=" BOLTZMANN_BUILD ":$PATH; " + line}, string()).wait();
+  }
+};
+
 }  // namespace boltzmann::test

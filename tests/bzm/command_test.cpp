@@ -24,16 +24,6 @@ namespace {
 
 using namespace boltzmann::test;
 
-bool has(std::string const& text, std::string const& part) { return text.find(part) != std::string::npos; }
-
-struct GasFolder : Folder {
-  GasFolder() { EXPECT_EQ(bzm({"new", "gas"}, string()).status, 0); }
-  Outcome run(std::vector<std::string> more) const {
-    more.insert(more.begin(), {"run", "gas.toml"});
-    return bzm(more, string());
-  }
-};
-
 void expect_one_line(Outcome const& outcome, int status, std::vector<std::string> const& parts) {
   EXPECT_EQ(outcome.status, status) << outcome.out << outcome.err;
   EXPECT_EQ(lines_in(outcome.err), 1U) << outcome.err;

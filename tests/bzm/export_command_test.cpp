@@ -11,8 +11,6 @@ namespace {
 
 using namespace boltzmann::test;
 
-bool has(std::string const& text, std::string const& part) { return text.find(part) != std::string::npos; }
-
 class Export : public testing::Test {
  protected:
   static void SetUpTestSuite() {

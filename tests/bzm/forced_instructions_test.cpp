@@ -15,8 +15,6 @@ namespace {
 
 using namespace boltzmann::test;
 
-bool has(std::string const& text, std::string const& part) { return text.find(part) != std::string::npos; }
-
 /// bzm with kernels of that set.
 Outcome bzm_with(std::string const& set, std::vector<std::string> const& words, std::string const& folder) {
   setenv("BOLTZMANN_INSTRUCTIONS", set.c_str(), 1);

@@ -7,8 +7,6 @@ namespace {
 
 using namespace boltzmann::test;
 
-bool has(std::string const& text, std::string const& part) { return text.find(part) != std::string::npos; }
-
 struct NoRanks : testing::Test {
   Folder folder;
   Environment environment;

@@ -11,8 +11,6 @@ namespace {
 
 using namespace boltzmann::test;
 
-bool has(std::string const& text, std::string const& part) { return text.find(part) != std::string::npos; }
-
 double seconds_since(std::chrono::steady_clock::time_point since) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - since).count();
 }

@@ -16,19 +16,6 @@ namespace {
 
 using namespace boltzmann::test;
 
-bool has(std::string const& text, std::string const& part) { return text.find(part) != std::string::npos; }
-
-struct GasFolder : Folder {
-  GasFolder() { EXPECT_EQ(bzm({"new", "gas"}, string()).status, 0); }
-  Outcome run(std::vector<std::string> more) const {
-    more.insert(more.begin(), {"run", "gas.toml"});
-    return bzm(more, string());
-  }
-  Outcome shell(std::string const& line) const {
-    return Process({"/bin/sh", "-c", "PATH=" BOLTZMANN_BUILD ":$PATH; " + line}, string()).wait();
-  }
-};
-
 Checkpoint checkpoint_of(fs::path const& folder) { return read_checkpoint((folder / "checkpoint.h5").string()); }
 
 void expect_same_state(fs::path const& one, fs::path const& other) {

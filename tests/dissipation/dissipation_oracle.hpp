@@ -17,6 +17,18 @@
 
 namespace boltzmann {
 
+inline constexpr Convention all_conventions[] = {Convention::fixed_temperature, Convention::constant_noise,
+                                                 Convention::constant_friction, Convention::deterministic};
+
+inline DissipationLaw friction_of(Convention convention, double range) {
+  DissipationLaw d;
+  d.convention = convention;
+  d.friction = 3;
+  d.range = range;
+  d.temperature = convention == Convention::constant_friction ? 0 : 1.3;
+  return d;
+}
+
 using Four = std::array<std::uint32_t, 4>;
 
 /// Philox4x32-10 (Salmon, Moraes, Dror and Shaw, SC11).

@@ -19,18 +19,6 @@ namespace {
 
 constexpr double tight = 1e-12;
 
-constexpr Convention all_conventions[] = {Convention::fixed_temperature, Convention::constant_noise,
-                                          Convention::constant_friction, Convention::deterministic};
-
-DissipationLaw friction_of(Convention convention, double range) {
-  DissipationLaw d;
-  d.convention = convention;
-  d.friction = 3;
-  d.range = range;
-  d.temperature = convention == Convention::constant_friction ? 0 : 1.3;
-  return d;
-}
-
 /// A pair's step in the words of the verification: v' = [(1 - a / 2mu) v + (s / mu) U] / (1 + a / 2mu).
 void pair_by_hand(OracleMatter& matter, OracleCoupling const& coupling, StepContext const& context, std::size_t i,
                   std::size_t j, double chi, std::array<double, 3> const& e, bool metropolis) {

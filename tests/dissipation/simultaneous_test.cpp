@@ -21,18 +21,6 @@ namespace {
 constexpr double tight = 1e-12;
 constexpr double k = 0.7;
 
-DissipationLaw friction_of(Convention convention, double range) {
-  DissipationLaw d;
-  d.convention = convention;
-  d.friction = 3;
-  d.range = range;
-  d.temperature = convention == Convention::constant_friction ? 0 : 1.3;
-  return d;
-}
-
-constexpr Convention all_conventions[] = {Convention::fixed_temperature, Convention::constant_noise,
-                                          Convention::constant_friction, Convention::deterministic};
-
 /// Without friction and conduction nothing changes, by whatever method; with conduction alone something does.
 TEST(Simultaneous, WithoutStrengthNothingHappens) {
   Box const box = cube<2>(6);

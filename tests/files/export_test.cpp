@@ -8,10 +8,10 @@
 #include <boltzmann/particles/vortex.hpp>
 #include <tests/message.hpp>
 
-#include <cstring>
 #include <limits>
 
 #include "temporary_folder.hpp"
+#include "vtk_array.hpp"
 
 namespace boltzmann::export_test {
 namespace {
@@ -62,20 +62,6 @@ TEST(Xyz, SeveralEnsemblesShareTheirCommonFields) {
             "ions 0 0 0 1 0 0 0\ndust 0 0 0 1 0 0 0\n");
   write_xyz(folder / "b.xyz", 0, {}, open);
   EXPECT_EQ(read_text(folder / "b.xyz"), "0\nProperties=species:S:1:pos:R:3 pbc=\"F F F\" Time=0\n");
-}
-
-// The number of array `name` of a .vtp as the VTK file format defines appended raw data.
-template <class T>
-std::vector<T> array_of(std::string const& file, std::string const& name) {
-  std::size_t const tag = file.find("Name=\"" + name + "\"");
-  if (tag == std::string::npos) return {};
-  std::size_t const offset = std::stoul(file.substr(file.find("offset=\"", tag) + 8));
-  std::size_t const data = file.find('_', file.find("<AppendedData encoding=\"raw\">")) + 1 + offset;
-  std::uint64_t bytes = 0;
-  std::memcpy(&bytes, file.data() + data, 8);
-  std::vector<T> values(bytes / sizeof(T));
-  if (bytes > 0) std::memcpy(values.data(), file.data() + data + 8, bytes);
-  return values;
 }
 
 TEST(Vtp, HoldsPointsVerticesAndEveryField) {

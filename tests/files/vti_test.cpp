@@ -8,11 +8,11 @@
 
 #include <gtest/gtest.h>
 
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 
 #include "temporary_folder.hpp"
+#include "vtk_array.hpp"
 
 namespace boltzmann::vti_test {
 namespace {
@@ -36,19 +36,6 @@ std::string attribute(std::string const& file, std::string const& tag, std::stri
   if (at == std::string::npos) return "none";
   std::size_t const begin = at + name.size() + 3;
   return file.substr(begin, file.find('"', begin) - begin);
-}
-
-/// The numbers of an array, as the VTK file format defines appended raw data with 64-bit headers.
-std::vector<double> array_of(std::string const& file, std::string const& name) {
-  std::size_t const tag = file.find("Name=\"" + name + "\"");
-  if (tag == std::string::npos) return {};
-  std::size_t const offset = std::stoul(file.substr(file.find("offset=\"", tag) + 8));
-  std::size_t const data = file.find('_', file.find("<AppendedData encoding=\"raw\">")) + 1 + offset;
-  std::uint64_t bytes = 0;
-  std::memcpy(&bytes, file.data() + data, 8);
-  std::vector<double> values(bytes / 8);
-  std::memcpy(values.data(), file.data() + data + 8, bytes);
-  return values;
 }
 
 TEST(Vti, HoldsTheMeshAndEveryField) {

@@ -5,7 +5,7 @@
 #include <boltzmann/pictures/canvas.hpp>
 #include <boltzmann/pictures/canvas_ticks.hpp>
 #include <boltzmann/pictures/colour.hpp>
-#include <boltzmann/pictures/drawings.hpp>
+#include <boltzmann/pictures/draw_arrays.hpp>
 #include <boltzmann/pictures/figure.hpp>
 #include <boltzmann/pictures/figure_layout.hpp>
 #include <boltzmann/pictures/projection.hpp>

@@ -1,7 +1,7 @@
 // Contour lines against circles, saddles and lines known exactly.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/pictures/contours.hpp>
-#include <boltzmann/pictures/drawings.hpp>
+#include <boltzmann/pictures/draw_arrays.hpp>
 #include <tests/message.hpp>
 
 #include <gtest/gtest.h>

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/pictures/canvas.hpp>
-#include <boltzmann/pictures/drawings.hpp>
+#include <boltzmann/pictures/draw_arrays.hpp>
 #include <boltzmann/pictures/figure.hpp>
 #include <boltzmann/pictures/projection.hpp>
 #include <tests/seed.hpp>

@@ -1,6 +1,7 @@
 // Programs by run_program: what the command line says reaches the run, and what is wrong with it is said in one line.
 #include <boltzmann/boltzmann.hpp>
 #include <boltzmann/files/csv.hpp>
+#include <boltzmann/files/text_file.hpp>
 #include <boltzmann/scenario/classes.hpp>
 
 #include <gtest/gtest.h>
@@ -57,11 +58,6 @@ class Programs : public testing::Test {
   double end_ = 0;
 };
 
-std::string text_of(std::string const& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
 TEST_F(Programs, RunAsTheyAreWritten) {
   EXPECT_EQ(run({"--quiet"}), 0);
   EXPECT_EQ(rows(folder()), 41U);
@@ -98,7 +94,7 @@ TEST_F(Programs, GoOnToTheSameBits) {
   EXPECT_EQ(run({"--quiet", "--steps", "13"}), 0);
   EXPECT_EQ(rows(folder()), 14U);
   EXPECT_EQ(run({"--quiet", "--resume", "--threads", "2"}), 0);
-  EXPECT_EQ(text_of(folder() + "/diagnoses.csv"), text_of(folder() + "-whole/diagnoses.csv"));
+  EXPECT_EQ(read_text(folder() + "/diagnoses.csv"), read_text(folder() + "-whole/diagnoses.csv"));
 }
 
 TEST_F(Programs, SayWhatIsWrong) {

@@ -5,9 +5,10 @@
 
 #include <gtest/gtest.h>
 #include <tests/message.hpp>
+#include <tests/same_rows.hpp>
+#include <tests/scenario/mistakes.hpp>
 
 #include <cstring>
-#include <stdexcept>
 #include <string>
 
 namespace boltzmann::rezone_scenario_test {
@@ -29,19 +30,9 @@ std::string const jet =
     "material = { kind = \"ideal-gas\", gamma = 1.4, specific_heat = 1 }\n"
     "[[diagnoses]]\nkind = \"energies\"\n";
 
-std::string replaced(std::string text, std::string const& old, std::string const& now) {
-  auto const at = text.find(old);
-  if (at == std::string::npos) throw std::logic_error("the test's scenario has no '" + old + "'");
-  return text.replace(at, old.size(), now);
-}
+using test::replaced;
 
 std::unique_ptr<ScenarioSimulation> read(std::string const& text) { return parse_scenario(text, "jet.toml"); }
-
-void expect_same_bits(AnyEnsemble const& a, AnyEnsemble const& b) {
-  ASSERT_EQ(a.size(), b.size());
-  for (std::size_t i = 0; i < a.size(); ++i)
-    ASSERT_EQ(std::memcmp(a.row(i), b.row(i), a.doubles() * sizeof(double)), 0) << "row " << i;
-}
 
 std::string reports(Simulation const& simulation) {
   std::string all;
@@ -71,7 +62,7 @@ TEST(RezoneScenario, IsTheRezoningOfAProgram) {
   simulation.run(40);
   scenario->simulation->run(40);
   EXPECT_NE(gas.size(), 400U);
-  expect_same_bits(gas, loaded);
+  expect_same_rows(gas, loaded);
   auto const text = reports(*scenario->simulation);
   EXPECT_EQ(text, reports(simulation));
   EXPECT_NE(text.find("merges"), std::string::npos);
@@ -88,7 +79,7 @@ TEST(RezoneScenario, TheStoredOneGoesOn) {
   std::memcpy(to.row(0), from.row(0), from.size() * from.stride() * sizeof(double));
   second->simulation->restore(20, 0.005, 1, first->simulation->state());
   second->simulation->run(20);
-  expect_same_bits(*whole->ensembles[0], to);
+  expect_same_rows(*whole->ensembles[0], to);
   EXPECT_EQ(reports(*whole->simulation), reports(*second->simulation));
 }
 

@@ -11,10 +11,11 @@
 #include <boltzmann/simulation/conserved.hpp>
 
 #include <gtest/gtest.h>
+#include <tests/same_rows.hpp>
+#include <tests/scenario/mistakes.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -65,11 +66,7 @@ std::string const gas =
     "[[influences]]\nlaw = \"uniform-gravity\"\non = \"gas\"\nacceleration = [0, -0.5]\n"
     "[[influences]]\nlaw = \"drag\"\non = \"gas\"\nfriction = 0.001\n";
 
-std::string replaced(std::string text, std::string const& old, std::string const& now) {
-  auto const at = text.find(old);
-  if (at == std::string::npos) throw std::logic_error("the test's scenario has no '" + old + "'");
-  return text.replace(at, old.size(), now);
-}
+using test::replaced;
 
 // ---- The same as a program ----
 
@@ -155,10 +152,7 @@ TEST(SmoothScenario, ReadsBackFromItsStoredFormToTheSameBits) {
     EXPECT_EQ(first->steps, second->steps);
     first->simulation->run(7);
     second->simulation->run(7);
-    AnyEnsemble const &a = *first->ensembles[0], &b = *second->ensembles[0];
-    ASSERT_EQ(a.size(), b.size());
-    for (std::size_t i = 0; i < a.size(); ++i)
-      ASSERT_EQ(std::memcmp(a.row(i), b.row(i), a.doubles() * sizeof(double)), 0) << i;
+    expect_same_rows(*first->ensembles[0], *second->ensembles[0]);
   }
 }
 

@@ -1,8 +1,11 @@
-// Shipped laws and what `bzm show` prints of them as typed laws: the same influences and energies.
+// Shipped laws, and what `bzm show` prints of them, as typed laws and in the letters of a textbook: the same influences
+// and energies; and equations of state, which hold.
 #include <boltzmann/core/quantity_text.hpp>
+#include <boltzmann/formulas/formula.hpp>
 #include <boltzmann/scenario/catalogue_pages.hpp>
 #include <boltzmann/scenario/classes.hpp>
 #include <boltzmann/scenario/laws.hpp>
+#include <boltzmann/scenario/materials.hpp>
 
 #include "mistakes.hpp"
 
@@ -11,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <regex>
 #include <string>
 
 namespace boltzmann::typed_twins_test {
@@ -19,13 +23,76 @@ namespace {
 struct Case {
   LawInfo const* law;
   int dimension;
+  std::string text = {};  ///< as a typed law
 };
 
 std::vector<Case> cases() {
   std::vector<Case> all;
   for (auto const& law : scenario_laws())
     for (int d = law.least_dimension; d <= law.greatest_dimension; ++d)
-      if (!law.typed.in[d - 1].empty()) all.push_back({&law, d});
+      if (!law.typed.in[d - 1].empty()) all.push_back({&law, d, std::string(law.typed.in[d - 1])});
+  return all;
+}
+
+std::string replaced(std::string const& text, char const* pattern, std::string const& by) {
+  return std::regex_replace(text, std::regex(pattern), by);
+}
+
+/// "P = B rho, B = ..." in two.
+std::vector<std::string> parts_of(std::string const& text) {
+  static std::regex const between(R"((?:, |; )(?=\w+ = ))");
+  return {std::sregex_token_iterator(text.begin(), text.end(), between, -1), {}};
+}
+
+/// "depth [(r0/r)^12 - 2 (r0/r)^6]" as it is typed: a blank between factors multiplies. What follows, "x = a (r - r0)",
+/// is put in its place.
+std::string typed_from(std::string const& textbook) {
+  auto const parts = parts_of(textbook);
+  std::string text = parts.front();
+  for (std::size_t k = 1; k < parts.size(); ++k) {
+    auto const equals = parts[k].find(" = ");
+    std::string const letter = "\\b" + parts[k].substr(0, equals) + "\\b";
+    text = replaced(text, letter.c_str(), "(" + parts[k].substr(equals + 3) + ")");
+  }
+  text = replaced(replaced(replaced(text, R"(\[)", "("), R"(\])", ")"), R"(\bln\b)", "log");
+  text = replaced(replaced(text, R"(\|([^|]*)\|)", "norm($1)"), R"((\w+) \. (\w+|\([^()]*\)))", "dot($1, $2)");
+  return replaced(text, R"(([\w)]) (?=[\w(]))", "$1*");
+}
+
+/// What `bzm show` prints of a law has letters that are none of its parameters: what they mean.
+struct Notation {
+  char const* law;
+  std::vector<std::pair<char const*, char const*>> letters;  ///< none: it is not to be typed
+};
+std::vector<Notation> const notations{
+    {"coulomb", {{" in 3D.*", ""}, {"q q'", "p.charge q.charge"}, {"/r$", "/sqrt(r^2 + softening^2)"}}},
+    {"gravity", {{" in 3D.*", ""}, {"m m'", "p.mass q.mass"}, {"/r$", "/sqrt(r^2 + softening^2)"}}},
+    {"soft", {{"(.*) up to the range", "r < range ? $1 : 0"}}},
+    {"pendulum-gravity", {{R"(\bm\b)", "bob_mass"}, {R"(\bl\b)", "length"}, {"cos angle", "cos(x)"}}},
+    {"drag", {{"^force ", ""}, {R"(\bv\b)", "velocity"}}},
+    {"uniform-gravity", {{R"(\bm\b)", "mass"}, {R"(\bx\b)", "position"}}},
+    {"uniform-electric-field", {{R"(\bx\b)", "position"}}},
+    {"tether", {{R"(\bx\b)", "position"}}},
+    {"shear-flow", {{"^velocity ", ""}, {R"(\bx\b)", "position"}}},
+    {"strain-flow", {}},  // "axis by axis"
+    {"oscillating-flow", {{R"(\bt\b)", "time"}}},
+    {"biot-savart", {}},  // Gamma, k x r and omega
+    {"biot-savart-algebraic", {}},
+    {"biot-savart-gaussian", {}}};
+
+/// What `bzm show` prints of those that can be typed, in their last dimension.
+std::vector<Case> shown_cases() {
+  std::vector<Case> all;
+  for (auto const& law : scenario_laws()) {
+    int const d = law.greatest_dimension;
+    auto const notation =
+        std::find_if(notations.begin(), notations.end(), [&](auto const& n) { return n.law == law.name; });
+    if (law.typed.in[d - 1].empty() || (notation != notations.end() && notation->letters.empty())) continue;
+    std::string text(law.formula);
+    if (notation != notations.end())
+      for (auto const& [letter, meaning] : notation->letters) text = replaced(text, letter, meaning);
+    all.push_back({&law, d, typed_from(text)});
+  }
   return all;
 }
 
@@ -73,7 +140,7 @@ TEST_P(Twins, HaveTheSameInfluencesAndEnergies) {
   ParameterValues values;
   FormulaLaw formula;
   formula.gives = law->has_energy ? FormulaLaw::Gives::energy : FormulaLaw::Gives::influence;
-  formula.text = law->typed.in[d - 1];
+  formula.text = GetParam().text;
   double next = 0.7;
   int vectors = 0;
   for (auto const& parameter : law->parameters) {
@@ -129,7 +196,7 @@ TEST_P(Twins, HaveTheDimensionsOfTheirLaw) {
   int const d = GetParam().dimension;
   FormulaLaw formula;
   formula.gives = law->has_energy ? FormulaLaw::Gives::energy : FormulaLaw::Gives::influence;
-  formula.text = law->typed.in[d - 1];
+  formula.text = GetParam().text;
   formula.units = UnitSystem::si();
   for (auto const& parameter : law->parameters) {
     std::string const name(parameter.name);
@@ -148,11 +215,13 @@ TEST_P(Twins, HaveTheDimensionsOfTheirLaw) {
   EXPECT_NO_THROW(formula.between(*a, *b));
 }
 
-INSTANTIATE_TEST_SUITE_P(All, Twins, testing::ValuesIn(cases()), [](auto const& info) {
+std::string name_of(testing::TestParamInfo<Case> const& info) {
   std::string name = std::string(info.param.law->name) + "_" + std::to_string(info.param.dimension) + "D";
   std::replace(name.begin(), name.end(), '-', '_');
   return name;
-});
+}
+INSTANTIATE_TEST_SUITE_P(All, Twins, testing::ValuesIn(cases()), name_of);
+INSTANTIATE_TEST_SUITE_P(Shown, Twins, testing::ValuesIn(shown_cases()), name_of);
 
 // Which laws have none, and why.
 TEST(TypedTwins, AreOfAllLawsThatCanBeTyped) {
@@ -185,9 +254,57 @@ std::string shown_table(std::string const& page, int dimension) {
   return heading == std::string::npos ? "" : page.substr(from, page.find("\n\n", from) - from) + "\n";
 }
 
+bool is_of_state(std::string const& part) {
+  return part.starts_with("P = ") || part.starts_with("e = ") || part.starts_with("T = ");
+}
+
+/// Equations of state as `bzm show` prints them: each holds for what the material makes of a density and an energy.
+TEST(ShownEquationsOfState, HoldForTheStatesOfAllMaterials) {
+  int equations = 0;
+  for (auto const& material : material_catalogue()) {
+    if (material.tabulated || material.typed) continue;
+    SCOPED_TRACE(material.name);
+    MaterialChoice choice;
+    choice.info = &material;
+    for (auto const& parameter : flux_parameters()) choice.fluxes.push_back({std::string(parameter.name), {0}});
+    FormulaInputs names(3, UnitSystem::reduced());
+    for (auto const* name : {"rho", "e", "P", "T"}) names.add(name, {});
+    double next = 1.4;
+    for (auto const& parameter : material.parameters) {
+      choice.parameters.push_back({std::string(parameter.name), {next}});
+      names.define(std::string(parameter.name), next, {});
+      next += 0.3;
+    }
+    auto const bound = bind_material(choice, Matter::fluid, 3);
+    auto const gas = find_class("Smooth")->in(3)->make("gas", 1);
+    auto const field = [&](char const* name) -> double& { return gas->row(0)[gas->field(name).offset]; };
+    field("mass") = 1, field("range") = 2, field("density") = 0.3, field("specific_energy") = 20;
+    double fluid[row_block];
+    std::uint32_t const order[] = {0};
+    Found found;
+    MaterialTask task;
+    task.particles = gas->row(0), task.particle_stride = gas->stride(), task.order = order;
+    task.fluid = fluid, task.found = &found;
+    bound.kernels.state(bound.material.get(), task, 0, 1);
+    std::array const state{field("density"), field("specific_energy"), field("pressure"), field("temperature")};
+    std::string letters;  // what else stands in its equations
+    auto const all = parts_of(std::string(material.formula));
+    for (auto const& part : all)
+      if (!is_of_state(part)) letters += ", " + part;
+    for (auto const& part : all) {
+      if (!is_of_state(part)) continue;
+      double const stated = names.read(part.substr(0, 1))(state);
+      EXPECT_GT(std::abs(stated), 1e-3) << part;
+      EXPECT_NEAR(names.read(typed_from(part.substr(4) + letters))(state), stated, 1e-12 * std::abs(stated)) << part;
+      ++equations;
+    }
+  }
+  EXPECT_GE(equations, 11);
+}
+
 // What `bzm show` prints of a law can be put into a scenario.
 TEST(TypedTwins, CanBeCopiedIntoScenarios) {
-  for (auto const& [law, d] : cases()) {
+  for (auto const& [law, d, typed] : cases()) {
     auto const page = catalogue_page(std::string(law->name));
     if (d < law->greatest_dimension && page.find("with its vectors in") != std::string::npos) continue;
     bool const carried = law->target == "Tracer" && law->kind == LawKind::pair;

@@ -5,9 +5,10 @@
 
 #include <gtest/gtest.h>
 #include <tests/message.hpp>
+#include <tests/same_rows.hpp>
+#include <tests/scenario/mistakes.hpp>
 
 #include <cstring>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -35,11 +36,8 @@ std::string const flow =
     "[[influences]]\nlaw = \"biot-savart-gaussian\"\non = \"air\"\n"
     "[[influences]]\nlaw = \"biot-savart-gaussian\"\nbetween = [\"gas\", \"air\"]\n";
 
-std::string replaced(std::string text, std::string const& old, std::string const& now) {
-  auto const at = text.find(old);
-  if (at == std::string::npos) throw std::logic_error("the test's scenario has no '" + old + "'");
-  return text.replace(at, old.size(), now);
-}
+using test::replaced;
+
 std::unique_ptr<ScenarioSimulation> read(std::string const& text) { return parse_scenario(text, "flow.toml"); }
 
 std::string reports(Simulation const& simulation) {
@@ -64,9 +62,7 @@ TEST(VortexAdaptations, GoOnFromACheckpointToTheBit) {
   for (std::size_t e = 0; e < 2; ++e) {
     auto const &a = *whole->ensembles[e], &b = *second->ensembles[e];
     EXPECT_NE(a.size(), 24U);
-    ASSERT_EQ(a.size(), b.size());
-    for (std::size_t i = 0; i < a.size(); ++i)
-      ASSERT_EQ(std::memcmp(a.row(i), b.row(i), a.doubles() * sizeof(double)), 0) << a.name() << ", row " << i;
+    expect_same_rows(a, b);
   }
   std::string const told = reports(*whole->simulation);
   EXPECT_EQ(told, reports(*second->simulation));

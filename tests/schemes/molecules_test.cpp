@@ -1,5 +1,6 @@
 // Angles and dihedrals: forces against differences of energies, momentum and torque, virials by deforming the box, bits,
 // and molecules whose motion is known exactly.
+#include <boltzmann/files/text_file.hpp>
 #include <boltzmann/laws/angular.hpp>
 #include <boltzmann/laws/spring.hpp>
 #include <boltzmann/particles/newton.hpp>
@@ -13,6 +14,7 @@
 #include <cmath>
 #include <functional>
 #include <random>
+#include <set>
 
 namespace boltzmann::molecules_test {
 namespace {
@@ -85,6 +87,16 @@ void for_each_law(Test const& test) {
   test(FourierDihedral{1.3, 3, 0.4});
   test(HarmonicDihedral{0.8, 2.9});
   test(RyckaertBellemans{9.28, 12.16, -13.12, -3.06, 26.24, -31.5});
+}
+
+// Whoever adds one adds it there.
+TEST(Molecules, AllAngularLawsAreTested) {
+  std::set<std::string_view> tested;
+  for_each_law([&](auto const& law) { tested.insert(law.text.name); });
+  std::string const header = read_text(BOLTZMANN_SOURCE "/boltzmann/laws/angular.hpp");
+  std::size_t laws = 0;
+  for (auto at = header.find("LawText text"); at != std::string::npos; at = header.find("LawText text", at + 1)) ++laws;
+  EXPECT_EQ(tested.size(), laws);
 }
 
 double potential(MoleculeScheme& scheme) { return scheme.measure().potential; }

@@ -117,7 +117,11 @@ struct System {
   /// With the influence function times 1 + bend (|k| h)^2.
   Forces<D> by_p3m(P3mParameters const& with, double bend = 0) const {
     std::size_t const n = positions.size();
-    Forces<D> result{std::vector<Vector<D>>(n, Vector<D>{}), p3m_energy_constant(numbers(), with)};
+    P3mSystem const system = numbers();
+    P3mEnergyTerms const terms = p3m_energy_terms(system, with);
+    Forces<D> result{
+        std::vector<Vector<D>>(n, Vector<D>{}),
+        terms.per_square * system.sum_of_squares + terms.per_total * system.sum_of_strengths * system.sum_of_strengths};
     // Near.
     EwaldShort const law{constant, with.alpha};
     for (std::size_t i = 0; i < n; ++i)

@@ -1,16 +1,16 @@
 // Remeshing and splitting of vortices: what stays, what is lost, where nodes may be, and runs that are stopped.
 #include <boltzmann/boltzmann.hpp>
 #include <boltzmann/files/checkpoint.hpp>
+#include <boltzmann/files/text_file.hpp>
 #include <boltzmann/files/trajectory.hpp>
 #include <boltzmann/particles/spreading.hpp>
 
 #include <gtest/gtest.h>
 #include <tests/files/temporary_folder.hpp>
 #include <tests/message.hpp>
+#include <tests/same_rows.hpp>
 
 #include <cmath>
-#include <cstring>
-#include <fstream>
 #include <random>
 #include <string>
 #include <vector>
@@ -280,25 +280,14 @@ struct Patch {
   }
 };
 
-void expect_same_bits(AnyEnsemble const& a, AnyEnsemble const& b) {
-  ASSERT_EQ(a.size(), b.size());
-  for (std::size_t i = 0; i < a.size(); ++i)
-    ASSERT_EQ(std::memcmp(a.row(i), b.row(i), a.doubles() * sizeof(double)), 0) << a.name() << ", row " << i;
-}
-
 TEST(Remesher, ThreadsChangeNoBit) {
   Patch one(1), two(2), three(3);
   for (Patch* patch : {&one, &two, &three}) patch->simulation.run(14);
   EXPECT_NE(one.patch.size(), 150U);
   for (Patch* patch : {&two, &three}) {
-    expect_same_bits(one.patch, patch->patch);
-    expect_same_bits(one.other, patch->other);
+    expect_same_rows(one.patch, patch->patch);
+    expect_same_rows(one.other, patch->other);
   }
-}
-
-std::string text_of(std::string const& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
 }
 
 TEST(Remesher, GoesOnWithTheBitsOfARunWithoutAStop) {
@@ -316,9 +305,9 @@ TEST(Remesher, GoesOnWithTheBitsOfARunWithoutAStop) {
   record("parts", 10, false);
   auto const resumed = record("parts", 8, true), whole = record("whole", 18, false);
   EXPECT_EQ(whole->simulation.step(), 18);
-  expect_same_bits(whole->patch, resumed->patch);
-  expect_same_bits(whole->other, resumed->other);
-  EXPECT_EQ(text_of(folder / "parts/diagnoses.csv"), text_of(folder / "whole/diagnoses.csv"));
+  expect_same_rows(whole->patch, resumed->patch);
+  expect_same_rows(whole->other, resumed->other);
+  EXPECT_EQ(read_text(folder / "parts/diagnoses.csv"), read_text(folder / "whole/diagnoses.csv"));
   std::vector<std::string> reports;
   for (auto const& run : {whole.get(), resumed.get()}) {
     std::string all;

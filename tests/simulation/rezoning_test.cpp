@@ -15,13 +15,12 @@
 #include <gtest/gtest.h>
 #include <tests/files/temporary_folder.hpp>
 #include <tests/message.hpp>
+#include <tests/same_rows.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <limits>
 #include <numbers>
 #include <vector>
@@ -31,12 +30,6 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 using By = Rezoning::By;
-
-void expect_same_bits(AnyEnsemble const& a, AnyEnsemble const& b, std::string const& what) {
-  ASSERT_EQ(a.size(), b.size()) << what;
-  for (std::size_t i = 0; i < a.size(); ++i)
-    ASSERT_EQ(std::memcmp(a.row(i), b.row(i), a.doubles() * sizeof(double)), 0) << what << ", row " << i;
-}
 
 /// A hot round spot in a periodic box of gas, dense in the middle, that bursts. Half the ensemble may have another
 /// name.
@@ -127,7 +120,7 @@ TEST(Rezoning, IsTheSameAsRezoningBetweenTwoRuns) {
     }
     pieces.simulation.run(10);
     EXPECT_GT(changes, 20U);
-    expect_same_bits(whole.gas, pieces.gas, to_string(method));
+    expect_same_rows(whole.gas, pieces.gas, to_string(method));
   }
 }
 
@@ -198,8 +191,8 @@ TEST(Rezoning, ThreadsChangeNoBit) {
   }
   EXPECT_NE(one.gas.size(), 2592U);
   EXPECT_NE(one.air.size(), 2592U);
-  expect_same_bits(one.gas, two.gas, "gas");
-  expect_same_bits(one.air, two.air, "air");
+  expect_same_rows(one.gas, two.gas, "gas");
+  expect_same_rows(one.air, two.air, "air");
 }
 
 TEST(Rezoning, ParticlesMayChangeTheirEnsemble) {
@@ -233,11 +226,6 @@ TEST(Rezoning, ParticlesMayChangeTheirEnsemble) {
 
 // ---- Files ----
 
-std::string text_of(std::string const& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
 struct Way {
   Method method;
   bool vary;  // ranges
@@ -270,9 +258,9 @@ TEST_P(RezonedRecording, GoesOnWithTheBitsOfARunWithoutAStop) {
   EXPECT_EQ(whole->simulation.step(), 65);
   std::erase(sizes, sizes.at(0));
   EXPECT_TRUE(!vary || !sizes.empty()) << "numbers change after the restart, too";
-  expect_same_bits(whole->gas, resumed->gas, "gas");
-  expect_same_bits(whole->air, resumed->air, "air");
-  EXPECT_EQ(text_of(folder / "parts/diagnoses.csv"), text_of(folder / "whole/diagnoses.csv"));
+  expect_same_rows(whole->gas, resumed->gas, "gas");
+  expect_same_rows(whole->air, resumed->air, "air");
+  EXPECT_EQ(read_text(folder / "parts/diagnoses.csv"), read_text(folder / "whole/diagnoses.csv"));
   auto const parts_checkpoint = read_checkpoint(folder / "parts/checkpoint.h5"),
              whole_checkpoint = read_checkpoint(folder / "whole/checkpoint.h5");
   EXPECT_EQ(parts_checkpoint.state, whole_checkpoint.state);
@@ -313,7 +301,7 @@ TEST_P(RezonedRecording, GoesOnWithTheBitsOfARunWithoutAStop) {
   EXPECT_EQ(drawn, 196U);
   a.load(13, resumed->gas);
   a.load(13, resumed->air);
-  expect_same_bits(whole->gas, resumed->gas, "the last frame");
+  expect_same_rows(whole->gas, resumed->gas, "the last frame");
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, RezonedRecording,

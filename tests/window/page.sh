@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Whether boltzmann/window/page.html is, byte for byte, what its source gives when it is built here; and whether its ticks are
-# those of pictures.
+# Whether boltzmann/window/page.html is, byte for byte, what its source gives when it is built here; and whether its ticks
+# and the outlines of its spaces are those of pictures.
 # Usage: page.sh BUILD_FOLDER
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
@@ -25,3 +25,10 @@ cmp out/page.html "$window/page.html" || {
 echo "page.html is what its source gives"
 node_modules/.bin/esbuild src/paint/ticks.ts --format=esm --log-level=error --outfile=out/ticks.mjs
 node "$here/ticks.mjs" out/ticks.mjs "$here/../pictures/ticks.json"
+cat >out/outline.ts <<'END'
+export { Outline } from "../src/paint/outline";
+export { Space } from "../src/paint/look";
+export { themes } from "../src/paint/theme";
+END
+node_modules/.bin/esbuild out/outline.ts --bundle --format=esm --log-level=error --outfile=out/outline.mjs
+node "$here/outline.mjs" out/outline.mjs "$here/../pictures/outlines.json"

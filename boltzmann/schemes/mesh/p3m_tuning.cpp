@@ -480,11 +480,6 @@ P3mEnergyTerms p3m_energy_terms(P3mSystem const& system, P3mParameters const& pa
   return {half * (itself + background - influence.mean_self_potential() - beyond), half * (beyond - background)};
 }
 
-double p3m_energy_constant(P3mSystem const& system, P3mParameters const& parameters) {
-  P3mEnergyTerms const terms = p3m_energy_terms(system, parameters);
-  return terms.per_square * system.sum_of_squares + terms.per_total * square(system.sum_of_strengths);
-}
-
 P3mParameters tune_p3m(P3mSystem const& system, double accuracy, int threads, std::size_t memory) {
   check(system, "p3m");
   if (!(accuracy > 0) || !std::isfinite(accuracy))

@@ -22,7 +22,7 @@ struct P3mSystem {
   double constant = 1;          ///< C of div E = C strength; the sign doesn't matter for errors
   std::size_t particles = 0;    ///< of any strength but 0
   double sum_of_squares = 0;    ///< of the strengths
-  double sum_of_strengths = 0;  ///< for p3m_energy_constant()
+  double sum_of_strengths = 0;  ///< for energies
 };
 
 struct P3mParameters {
@@ -85,8 +85,6 @@ struct P3mEnergyTerms {
   double per_square = 0, per_total = 0;
 };
 P3mEnergyTerms p3m_energy_terms(P3mSystem const& system, P3mParameters const& parameters);
-/// All of it, for the strengths of the system.
-double p3m_energy_constant(P3mSystem const& system, P3mParameters const& parameters);
 
 /// Order, mesh, alpha and cut-off for which the estimated rms error of the force, near and mesh together, is `accuracy`
 /// (in units of a force), at the least cost of a calculation by a simple model of pairs, splines and transforms on so

@@ -1,3 +1,4 @@
+// Integrals of energies and virials beyond the cut-off, by Gauss and Legendre's rule.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/laws/pair_numbers.hpp>
 #include <boltzmann/schemes/pair/tail_correction.hpp>

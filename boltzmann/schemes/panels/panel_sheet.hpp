@@ -105,7 +105,6 @@ class PanelSheet {
   double smooth2_ = 0, core2_ = 0;
   NearCells near_;
   std::vector<double> point_x_, point_y_, point_strength_;
-  mutable std::vector<double> correction_;
 };
 
 }  // namespace boltzmann

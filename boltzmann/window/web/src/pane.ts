@@ -3,7 +3,7 @@ import { h, iconButton } from "./elements";
 import { Painter } from "./paint/painter";
 import { TablePlot } from "./plot";
 import type { Canvas, Diagnosis, Update, View } from "./protocol";
-import { Recorder } from "./recorder";
+import { Movie } from "./movie";
 import type { Session } from "./session";
 
 /** What the user can change of a diagnosis. */
@@ -30,7 +30,7 @@ export class Pane {
   canvas: Canvas | null = null;
   painter: Painter | null = null;
   plot: TablePlot | null = null;
-  readonly recorder = new Recorder(() => this.marked());
+  readonly movie = new Movie(() => this.marked());
   private readonly board = h("div", { class: "board" });
   private readonly fault = h("p", { class: "fault", role: "alert", hidden: true });
   private readonly count = h("span", { class: "count" });
@@ -222,8 +222,8 @@ export class Pane {
   }
 
   record(): void {
-    if (this.recorder.running) return this.recorder.stop();
-    const fault = this.recorder.start(this.picture, `${this.fileName()}.webm`);
+    if (this.movie.running) return this.movie.stop();
+    const fault = this.movie.start(this.picture, `${this.fileName()}.webm`);
     if (fault) this.session.notices.set("reply", fault, "warning");
   }
 
@@ -240,7 +240,7 @@ export class Pane {
 
   dispose(): void {
     clearTimeout(this.moveTimer);
-    this.recorder.stop();
+    this.movie.stop();
     this.painter?.dispose();
     this.plot?.dispose();
     this.element.remove();
@@ -261,7 +261,7 @@ export class Pane {
     if (!hello) return;
     const table = this.drawing === "table";
     if (table ? this.painter || this.plotted !== this.diagnosis : this.plot) {
-      this.recorder.stop();
+      this.movie.stop();
       this.painter?.dispose();
       this.plot?.dispose();
       this.painter = this.plot = null;
@@ -367,14 +367,14 @@ export class Pane {
   /** The page's bar says which simulation and step this is: a picture's title says it again only in a movie. */
   private head(): void {
     const title = this.hello?.title ?? "";
-    this.painter?.head(this.recorder.running || !title || !this.canvas?.title.startsWith(title));
+    this.painter?.head(this.movie.running || !title || !this.canvas?.title.startsWith(title));
   }
 
   private marked(): void {
     this.head();
-    this.recording.setAttribute("aria-pressed", String(this.recorder.running));
-    this.recording.title = this.recorder.running ? "end the movie and save it" : "record a movie of this pane";
-    this.element.classList.toggle("recording", this.recorder.running);
+    this.recording.setAttribute("aria-pressed", String(this.movie.running));
+    this.recording.title = this.movie.running ? "end the movie and save it" : "record a movie of this pane";
+    this.element.classList.toggle("recording", this.movie.running);
     this.events.recorded();
   }
 }

@@ -516,9 +516,9 @@ export class Panel {
         h("button", { type: "button", id: "save-picture", click: act("picture") }, icon("save"), "Save picture"),
         h(
           "button",
-          { type: "button", id: "record", "aria-pressed": String(panes.active.recorder.running), click: act("movie") },
+          { type: "button", id: "record", "aria-pressed": String(panes.active.movie.running), click: act("movie") },
           icon("record"),
-          panes.active.recorder.running ? "End movie" : "Record movie",
+          panes.active.movie.running ? "End movie" : "Record movie",
         ),
         !recording &&
           h(

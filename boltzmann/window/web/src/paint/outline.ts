@@ -1,5 +1,6 @@
 // The outline of a box in space: edges behind the particles first, the three at the nearest corner last; names and
-// ticks along three edges of the silhouette. As BoxOutline in boltzmann/diagnoses has it.
+// ticks along three edges of the silhouette. As BoxOutline in boltzmann/pictures/projection.cpp has it;
+// tests/pictures/outlines.json holds both to it.
 import { toPane, type Look, type Place3, type Space } from "./look";
 import { Pen } from "./text";
 import { css, type Theme } from "./theme";

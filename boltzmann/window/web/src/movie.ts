@@ -3,7 +3,7 @@ import { download } from "./elements";
 
 const kinds = ["video/webm;codecs=vp9", "video/webm;codecs=vp8", "video/webm"];
 
-export class Recorder {
+export class Movie {
   private recorder: MediaRecorder | null = null;
 
   constructor(private readonly changed: () => void) {}

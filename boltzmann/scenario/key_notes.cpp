@@ -1,7 +1,7 @@
 // Which values a scenario has, and what is known of those that have been read.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/quantity_text.hpp>
-#include <boltzmann/scenario/recorder.hpp>
+#include <boltzmann/scenario/key_notes.hpp>
 #include <boltzmann/scenario/section.hpp>
 
 #include <algorithm>
@@ -73,11 +73,11 @@ bool is_unit_of(std::string const& unit, Dimension dimension) {
 
 }  // namespace
 
-Recorder::Recorder(Item& document, std::string const& text, bool with_keys) : text_(text), with_keys_(with_keys) {
+KeyNotes::KeyNotes(Item& document, std::string const& text, bool with_keys) : text_(text), with_keys_(with_keys) {
   walk(document, "", "", Lines(text));
 }
 
-void Recorder::walk(Item& table, std::string const& path, std::string const& group, Lines const& lines) {
+void KeyNotes::walk(Item& table, std::string const& path, std::string const& group, Lines const& lines) {
   table.written = static_cast<int>(tables_.size());
   tables_.push_back({path, group, {}});
   for (auto& entry : table.entries) {
@@ -99,7 +99,7 @@ void Recorder::walk(Item& table, std::string const& path, std::string const& gro
   }
 }
 
-void Recorder::add(Item& item, std::string const& path, std::string const& group, Lines const& lines) {
+void KeyNotes::add(Item& item, std::string const& path, std::string const& group, Lines const& lines) {
   Value value;
   value.array = item.is(Item::Kind::array);
   ScenarioParameter& parameter = value.parameter;
@@ -123,18 +123,18 @@ void Recorder::add(Item& item, std::string const& path, std::string const& group
   values_.push_back(std::move(value));
 }
 
-Recorder::Value* Recorder::find(Item const& item) {
+KeyNotes::Value* KeyNotes::find(Item const& item) {
   if (item.written < 0 || item.is(Item::Kind::table)) return nullptr;
   return &values_[static_cast<std::size_t>(item.written)];
 }
 
-Recorder::Value* Recorder::find(Item const& item, std::string_view kind) {
+KeyNotes::Value* KeyNotes::find(Item const& item, std::string_view kind) {
   Value* value = find(item);
   if (value) value->parameter.kind = value->array ? "vector" : kind;
   return value;
 }
 
-void Recorder::limit(Value& value, double low, double high, bool low_excluded) {
+void KeyNotes::limit(Value& value, double low, double high, bool low_excluded) {
   ScenarioParameter& parameter = value.parameter;
   bool const wider = value.array && value.limited;
   bool const excluded = low_excluded && (!wider || parameter.low_excluded || low < parameter.low);
@@ -144,7 +144,7 @@ void Recorder::limit(Value& value, double low, double high, bool low_excluded) {
   value.limited = true;
 }
 
-void Recorder::measure(Value& value, std::string const& text, Dimension dimension, NumberRange const& range,
+void KeyNotes::measure(Value& value, std::string const& text, Dimension dimension, NumberRange const& range,
                        UnitSystem const& units) {
   bool const pure = dimension == dimensions::none || units.is_reduced();
   ScenarioParameter& parameter = value.parameter;
@@ -169,11 +169,11 @@ void Recorder::measure(Value& value, std::string const& text, Dimension dimensio
   limit(value, range.low * value.factor, range.high * value.factor, range.low_excluded);
 }
 
-void Recorder::number(Item const& item, Dimension dimension, NumberRange const& range, UnitSystem const& units) {
+void KeyNotes::number(Item const& item, Dimension dimension, NumberRange const& range, UnitSystem const& units) {
   if (Value* value = find(item)) measure(*value, item.is(Item::Kind::text) ? item.text : "", dimension, range, units);
 }
 
-void Recorder::integer(Item const& item, std::int64_t low, std::int64_t high) {
+void KeyNotes::integer(Item const& item, std::int64_t low, std::int64_t high) {
   Value* value = find(item, "integer");
   if (!value) return;
   constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -181,20 +181,20 @@ void Recorder::integer(Item const& item, std::int64_t low, std::int64_t high) {
         high == std::numeric_limits<std::int64_t>::max() ? infinity : static_cast<double>(high), false);
 }
 
-void Recorder::word(Item const& item, std::vector<std::string> const& words) {
+void KeyNotes::word(Item const& item, std::vector<std::string> const& words) {
   if (Value* value = find(item, "word")) value->parameter.words = words;
 }
 
-void Recorder::plain(Item const& item, std::string_view kind) { find(item, kind); }
+void KeyNotes::plain(Item const& item, std::string_view kind) { find(item, kind); }
 
-void Recorder::narrow(Item const& item, NumberRange const& range) {
+void KeyNotes::narrow(Item const& item, NumberRange const& range) {
   Value* value = find(item);
   if (!value) return;
   value->limited = false;
   limit(*value, range.low * value->factor, range.high * value->factor, range.low_excluded);
 }
 
-void Recorder::key(Item const& table, ToldKey const& key, UnitSystem const& units) {
+void KeyNotes::key(Item const& table, ToldKey const& key, UnitSystem const& units) {
   using enum OptionKind::Form;
   auto const& [option, value, dimension] = key;
   if (Entry const* entry = table.find(option.key)) {
@@ -235,14 +235,14 @@ void Recorder::key(Item const& table, ToldKey const& key, UnitSystem const& unit
   ++absent_;
 }
 
-std::vector<ScenarioParameter> Recorder::parameters() const {
+std::vector<ScenarioParameter> KeyNotes::parameters() const {
   std::vector<ScenarioParameter> read;
   for (auto const& value : values_)
     if (!value.parameter.kind.empty()) read.push_back(value.parameter);
   return read;
 }
 
-std::vector<ScenarioParameter> Recorder::absent() const {
+std::vector<ScenarioParameter> KeyNotes::absent() const {
   std::vector<ScenarioParameter> all;
   for (auto const& table : tables_) all.insert(all.end(), table.absent.begin(), table.absent.end());
   return all;

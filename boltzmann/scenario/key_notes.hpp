@@ -1,4 +1,4 @@
-// Recorder: notes, while a scenario is read, which of its values somebody has asked for and what they may be, and which
+// Notes on keys: while a scenario is read, which of its values somebody has asked for and what they may be, and which
 // other keys its tables could have. Private to this room.
 #pragma once
 
@@ -21,11 +21,11 @@ struct ToldKey {
   std::optional<Dimension> dimension;  ///< of its numbers in this space; nothing: it is not known
 };
 
-class Recorder {
+class KeyNotes {
  public:
   /// Numbers the values of the document, which has been read from the text and may have been changed since. What keys
   /// mean, and those that are absent, are kept if they are wanted.
-  Recorder(Item& document, std::string const& text, bool with_keys);
+  KeyNotes(Item& document, std::string const& text, bool with_keys);
 
   bool with_keys() const { return with_keys_; }
 

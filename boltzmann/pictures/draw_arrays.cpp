@@ -2,8 +2,8 @@
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/pictures/canvas_ticks.hpp>
 #include <boltzmann/pictures/contours.hpp>
+#include <boltzmann/pictures/draw_arrays.hpp>
 #include <boltzmann/pictures/drawing_cartesian.hpp>
-#include <boltzmann/pictures/drawings.hpp>
 #include <boltzmann/pictures/particle_clouds.hpp>
 
 #include <algorithm>
