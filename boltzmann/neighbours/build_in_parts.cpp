@@ -317,7 +317,8 @@ bool Neighbourhood::agree_on_order(std::vector<Sorting>& all, double reach) {
   auto const& largest = *std::max_element(all.begin(), all.end(), [](auto const& a, auto const& b) {
     return a.copy->ensemble().size() < b.copy->ensemble().size();
   });
-  int const ranks = division_->team().size(), layers = layers_for(largest.plane(), wide(reach, margin()), ranks, columns_worth_);
+  int const ranks = division_->team().size(),
+            layers = layers_for(largest.plane(), wide(reach, margin()), ranks, columns_worth_);
   bool const columns = layers < ranks;
   std::vector<std::int64_t> counts;
   for (std::size_t e = 0; e < all.size(); ++e) {
