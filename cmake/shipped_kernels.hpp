@@ -1,5 +1,5 @@
-// Kernels of shipped laws for shipped classes, as many of the tests and examples use them: they are compiled once
-// (shipped_kernels.cpp), with full optimisation, and not in every unit again. All precompiled headers have this.
+// Kernels of shipped laws for shipped classes, as many of the tests use them: they are compiled once
+// (shipped_kernels.cpp), with full optimisation, and not in every unit again. Precompiled headers of tests have this.
 #pragma once
 
 #include <boltzmann/boltzmann.hpp>
