@@ -533,24 +533,34 @@ void Neighbourhood::tell_moved(std::vector<Moved>& moved) {
   std::vector<std::vector<std::uint32_t>> of_all(moved.size());  // the rows that they have among all
   for (auto& one : moved) one.rows.clear();
   bool too_far = false;
+  struct Told {
+    std::size_t rank;
+    double const* at;
+  };
+  std::vector<std::vector<double>> numbers(all.size());
+  std::vector<Told> told;  // in the order of rows, as one rank finds them
   for (std::size_t r = 0; r < all.size(); ++r) {
-    std::vector<double> numbers(all[r].size() / sizeof(double));
-    if (!numbers.empty()) std::memcpy(numbers.data(), all[r].data(), all[r].size());
-    for (auto at = numbers.data(), end = at + numbers.size(); at < end;) {
-      auto const e = static_cast<std::size_t>(at[0]);
-      auto const k = static_cast<std::uint32_t>(at[1]), i = static_cast<std::uint32_t>(at[2]);
-      too_far = too_far || at[3] != 0;
-      SortedCopy& copy = copies_[e];
-      auto* const ensemble = const_cast<AnyEnsemble*>(&copy.ensemble());
-      std::copy_n(at + 4 + D, size(copy), ensemble->row(i));
-      division_->owners_here(*ensemble)[i] = static_cast<std::uint16_t>(r);
-      std::uint32_t& row = row_of_[e][i];
-      if (!copy.knows(row, i)) row = copy.learn(k, i, at + 4);
-      copy.refresh_row(row);
-      moved[e].rows.push_back(row);
-      of_all[e].push_back(k);
-      at += 4 + D + size(copy);
+    numbers[r].resize(all[r].size() / sizeof(double));
+    if (!numbers[r].empty()) std::memcpy(numbers[r].data(), all[r].data(), all[r].size());
+    for (double const *at = numbers[r].data(), *const end = at + numbers[r].size(); at < end;) {
+      told.push_back({r, at});
+      at += 4 + D + size(copies_[static_cast<std::size_t>(at[0])]);
     }
+  }
+  std::sort(told.begin(), told.end(), [](Told const& a, Told const& b) { return a.at[1] < b.at[1]; });
+  for (auto const& [r, at] : told) {
+    auto const e = static_cast<std::size_t>(at[0]);
+    auto const k = static_cast<std::uint32_t>(at[1]), i = static_cast<std::uint32_t>(at[2]);
+    too_far = too_far || at[3] != 0;
+    SortedCopy& copy = copies_[e];
+    auto* const ensemble = const_cast<AnyEnsemble*>(&copy.ensemble());
+    std::copy_n(at + 4 + D, size(copy), ensemble->row(i));
+    division_->owners_here(*ensemble)[i] = static_cast<std::uint16_t>(r);
+    std::uint32_t& row = row_of_[e][i];
+    if (!copy.knows(row, i)) row = copy.learn(k, i, at + 4);
+    copy.refresh_row(row);
+    moved[e].rows.push_back(row);
+    of_all[e].push_back(k);
   }
   // Around those that have gone further than a margin some are not known.
   if (!is_part() || !too_far) return;

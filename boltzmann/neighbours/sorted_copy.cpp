@@ -633,11 +633,11 @@ void SortedCopy::move(std::span<std::uint32_t const> rows, std::span<double cons
     for (int a = 0; a < dimension; ++a) {
       reference[a] = references[3 * n + a];
       steps_[4 * k + a] = in_steps(reference[a], reach_);
-      double& x = rows_[row_block * k + a];
-      if (box_->periodic(a) && !box_->sheared())
-        x -= box_->length(a) * std::nearbyint((x - reference[a]) / box_->length(a));
     }
-    if (box_->sheared()) place(k, placed(k, rows_.data() + row_block * k));
+    if (box_->sheared())
+      place(k, placed(k, rows_.data() + row_block * k));
+    else
+      refresh_row(k);  // whose position where it was before may have been rounded
     images_.each(reference, reach_, [&](Turns const& turns, auto const& at) {
       if (turns == Turns{}) {
         moved_images_[m].push_back({k, at});
@@ -717,8 +717,8 @@ double SortedCopy::left_build_by(std::uint32_t k) const {
   for (int a = 0; a < box_->dimension(); ++a) {
     double const built = part_ ? built_by_number_[order_[k] * static_cast<std::size_t>(box_->dimension()) + a]
                                : references_[4 * std::size_t{k} + a];
-    double d = rows_[row_block * std::size_t{k} + a] - built;
-    if (box_->periodic(a)) d -= box_->length(a) * std::nearbyint(d / box_->length(a));
+    double const x = rows_[row_block * std::size_t{k} + a];
+    double const d = (box_->periodic(a) && !box_->sheared() ? box_->wrapped(x, a) : x) - built;
     square += d * d;
   }
   return std::sqrt(square);

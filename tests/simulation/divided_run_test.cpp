@@ -55,6 +55,10 @@ void with_a_few_ahead(World& world) {
   auto& atoms = *dynamic_cast<Ensemble<Newton<2>>*>(scheme.ensembles()[0]);
   for (std::size_t const i : {100U, 1333U, 1900U}) atoms[i].velocity = {i == 1333 ? -25.0 : 15.0, 20.0};
   atoms[22].velocity = {20.0, 0.0};  // along an end of the box, beyond which other ranks see its image
+  // And one that leaves over an end before it has gone as far as ranks know around their rows, and comes in elsewhere.
+  double const to_end = scheme.box().high(1) - atoms[1915].position[1];
+  for (std::size_t i = 0; i < atoms.size(); ++i) atoms[i].position[1] += to_end - 0.05;
+  atoms[1915].velocity = {0.0, 12.0};
 }
 
 // Around those that are ahead of all others neighbours are found anew alone, and ranks hear of particles that come from
@@ -92,6 +96,13 @@ TEST(DividedRun, InColumnsOfSpace) {
   for (Boundary const boundary : {Boundary::periodic, Boundary::reflecting})
     expect_same_bits([=](World& world) { two_species(world, boundary); }, 60, {2, 5, 9});
   expect_same_bits([](World& world) { melt<2>(world, 34, 1.0, Boundary::reflecting); }, 60, {5});
+  auto const cold_with_a_few_ahead = [](World& world) {
+    melt<3>(world, 7, 0.05, Boundary::periodic);
+    auto& scheme = *static_cast<PairScheme*>(world.parts[1].get());
+    auto& atoms = *dynamic_cast<Ensemble<Newton<3>>*>(scheme.ensembles()[0]);
+    for (std::size_t const i : {10U, 300U, 700U, 1000U, 1300U}) atoms[i].velocity = {8.0, i < 500 ? 15.0 : -12.0, 10.0};
+  };
+  expect_same_bits(cold_with_a_few_ahead, 40, {4, 9});
 }
 
 /// A drag between atoms that are near, by what each is.
