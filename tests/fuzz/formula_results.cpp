@@ -97,11 +97,14 @@ void compare_lists(FormulaProgram const& interpreted, FormulaProgram const& comp
       auto const place = interpreted.results[k];
       return work.place(place)[place.scalar ? 0 : lane];
     };
-    for (std::size_t lane = 0; lane < W; ++lane)
-      for (std::size_t c = 0; c < 3; ++c)
-        if (square[lane] < Rows::cutoff_square)
-          sums[c][lane] =
-              along ? std::fma(result(0, lane), separation[c][lane], sums[c][lane]) : sums[c][lane] + result(c, lane);
+    for (std::size_t lane = 0; lane < W; ++lane) {
+      bool const counts = square[lane] < Rows::cutoff_square;
+      if (W == 8 && !counts) continue;  // elsewhere zeros are added, which takes the sign off a zero (added_where)
+      for (std::size_t c = 0; c < 3; ++c) {
+        double const value = counts ? result(along ? 0 : c, lane) : 0, x = counts ? separation[c][lane] : 0;
+        sums[c][lane] = along ? std::fma(value, x, sums[c][lane]) : sums[c][lane] + value;
+      }
+    }
   }
   auto& there = workspace<W>(compiled);
   detail::run_row<W>(there, compiled);
