@@ -1,7 +1,8 @@
 // The page's bytes, put into the object file by the assembler: there is no text of a hundred kilobytes to compile.
 #include <boltzmann/window/page.hpp>
 
-// BOLTZMANN_PAGE: the path of page.html, from CMakeLists.txt.
+// BOLTZMANN_PAGE: the path of page.html, from CMakeLists.txt, which also gives its digest, so that no cache of compilers
+// takes an older page's object for this one's.
 asm(".pushsection .rodata\n"
     ".global boltzmann_window_page\n"
     ".hidden boltzmann_window_page\n"
