@@ -89,10 +89,9 @@ std::string balance_of_a_dam_break() {
     worst = std::max(worst, of(over_ranks(cost)));
   }
   return fmt::format(
-      "dam-break, {} smooth particles, {} steps: the slowest rank has {:.2f} of the mean processor time, in pieces of "
-      "{} "
-      "steps up to {:.2f}\n",
-      scenario->ensembles.front()->size(), pieces * steps, of(over_ranks(all)), steps, worst);
+      "dam-break, {} smooth particles, {} steps: the slowest rank has {:.2f} of the mean processor time,\n"
+      "up to {:.2f} in pieces of {} steps\n",
+      scenario->ensembles.front()->size(), pieces * steps, of(over_ranks(all)), worst, steps);
 }
 
 }  // namespace

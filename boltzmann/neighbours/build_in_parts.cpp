@@ -523,7 +523,7 @@ void Neighbourhood::tell_moved(std::vector<Moved>& moved) {
       double const* const reference = copies_[e].references() + 4 * std::size_t{k};
       double const* const row = copies_[e].ensemble().row(i);
       mine.insert(mine.end(), {static_cast<double>(e), static_cast<double>(k), static_cast<double>(i),
-                               copies_[e].left_build_by(k) > margin() ? 1.0 : 0.0});
+                               is_part() && copies_[e].left_build_by(k) > margin() ? 1.0 : 0.0});
       mine.insert(mine.end(), reference, reference + D);
       mine.insert(mine.end(), row, row + size(copies_[e]));
     }

@@ -715,10 +715,9 @@ void SortedCopy::refresh_row(std::uint32_t k) {
 double SortedCopy::left_build_by(std::uint32_t k) const {
   double square = 0;
   for (int a = 0; a < box_->dimension(); ++a) {
-    double const built = part_ ? built_by_number_[order_[k] * static_cast<std::size_t>(box_->dimension()) + a]
-                               : references_[4 * std::size_t{k} + a];
+    double const built = built_by_number_[order_[k] * static_cast<std::size_t>(box_->dimension()) + a];
     double const x = rows_[row_block * std::size_t{k} + a];
-    double const d = (box_->periodic(a) && !box_->sheared() ? box_->wrapped(x, a) : x) - built;
+    double const d = (box_->periodic(a) ? box_->wrapped(x, a) : x) - built;
     square += d * d;
   }
   return std::sqrt(square);

@@ -101,7 +101,8 @@ class SortedCopy {
   std::uint32_t learn(std::uint32_t row_of_all, std::uint32_t particle, double const* reference);
   /// A row as the ensemble has it now.
   void refresh_row(std::uint32_t k);
-  /// How far a known row is from where it was at the build.
+  /// Of a part: how far the place where a known row would get a new reference is from where it was at the build: on the
+  /// other side of the box, if it has left over a periodic end.
   double left_build_by(std::uint32_t k) const;
   /// References at the build for all particles, in the ensemble's order; where only a part is known, those of others
   /// are to be written here.

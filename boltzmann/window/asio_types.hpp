@@ -1,4 +1,4 @@
-// Web sockets: the types of Boost.Asio that the server, its connections and its browsers share. Private to this room.
+// The types of Boost.Asio, and the limits, that the server, its connections and its browsers share. Private to this room.
 #pragma once
 
 #define BOOST_ASIO_DISABLE_FENCED_BLOCK  // one thread has nobody to keep in step with

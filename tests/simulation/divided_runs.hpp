@@ -16,11 +16,15 @@
 #include <gtest/gtest.h>
 #include <tests/seed.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
+#include <exception>
 #include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace boltzmann::test {
@@ -165,6 +169,93 @@ inline Make scenario(ScenarioText const& text) {
     world.parts.push_back(load_scenario(text));
     world.simulation = std::static_pointer_cast<ScenarioSimulation>(world.parts.back())->simulation.get();
   };
+}
+
+/// A shipped scenario, made short.
+struct Shipped {
+  char const* name;
+  std::vector<std::string> set;
+  std::uint64_t steps;
+  std::vector<int> sizes = {2, 5};  ///< of teams: one where a step is dear
+};
+inline std::string name_of(testing::TestParamInfo<Shipped> const& info) {
+  std::string name = info.param.name;
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+}
+
+/// The line with which a run ends: on one rank, and the same on all of several.
+inline std::string failure_of(Make const& make, int size) {
+  std::vector<std::exception_ptr> thrown;
+  auto const run = [&] {
+    World world;
+    make(world);
+    world.simulation->divide_from(0);
+    world.simulation->run(60);
+  };
+  if (size > 1) {
+    thrown = ThreadTeam(size).run([&](Team&) { run(); });
+  } else {
+    try {
+      run();
+    } catch (...) {
+      thrown.push_back(std::current_exception());
+    }
+  }
+  for (auto const& one : thrown) {
+    EXPECT_EQ(line_of(one), line_of(thrown.front()));
+    EXPECT_EQ(exit_status(one), exit_status(thrown.front()));
+  }
+  return thrown.empty() ? "" : line_of(thrown.front());
+}
+
+inline void expect_same_failure(Make const& make, char const* words) {
+  auto const wanted = failure_of(make, 1);
+  EXPECT_NE(wanted.find(words), std::string::npos) << wanted;
+  for (int const size : {2, 3, 5}) EXPECT_EQ(failure_of(make, size), wanted) << size << " ranks";
+}
+
+/// Rows and state where a run stops.
+struct Stop {
+  std::vector<std::vector<double>> rows;
+  std::vector<double> state;
+};
+
+inline Stop run_from(Make const& make, Stop const* from, std::int64_t done, std::uint64_t steps) {
+  World world;
+  make(world);
+  Simulation& simulation = *world.simulation;
+  simulation.threads(1);
+  simulation.divide_from(0);
+  auto const all = supervised_by(simulation.schemes());
+  if (from) {
+    for (std::size_t e = 0; e < all.size(); ++e) std::copy(from->rows[e].begin(), from->rows[e].end(), all[e]->row(0));
+    simulation.restore(done, simulation.step_size(), simulation.seed(), from->state);
+  }
+  simulation.run(steps);
+  Stop stop;
+  for (auto* ensemble : all)
+    stop.rows.emplace_back(ensemble->row(0), ensemble->row(0) + ensemble->size() * ensemble->stride());
+  stop.state = simulation.state();
+  return stop;
+}
+
+inline void expect_to_go_on(Make const& make) {
+  Stop const whole = run_from(make, nullptr, 0, 40);
+  auto const on_ranks = [&](int size, Stop const* from, std::int64_t done) {
+    std::vector<Stop> all(static_cast<std::size_t>(size));
+    auto const thrown = ThreadTeam(size).run(
+        [&](Team& team) { all[static_cast<std::size_t>(team.rank())] = run_from(make, from, done, 20); });
+    for (auto const& failure : thrown) EXPECT_EQ(line_of(failure), "") << size << " ranks";
+    return all;
+  };
+  for (auto const& [before, after] : {std::pair(3, 2), std::pair(1, 3), std::pair(8, 1)}) {
+    Stop const middle = on_ranks(before, nullptr, 0).back();
+    for (auto const& end : on_ranks(after, &middle, 20)) {
+      EXPECT_EQ(end.rows, whole.rows) << before << " ranks, then " << after;
+      EXPECT_EQ(end.state, whole.state);
+    }
+  }
 }
 
 }  // namespace boltzmann::test
