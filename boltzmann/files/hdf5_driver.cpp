@@ -51,6 +51,7 @@ void write_bytes(Disk& disk, std::uint64_t address, unsigned char const* bytes, 
     disk.size = std::max<std::uint64_t>(disk.size, address + size);
     return;
   }
+  if (disk.undo && disk.error == 0) disk.undo->keep(disk.descriptor, address, size);
   while (size > 0 && disk.error == 0) {
     ssize_t const written = pwrite(disk.descriptor, bytes, size, static_cast<off_t>(address));
     if (written < 0) {
@@ -66,6 +67,7 @@ void write_bytes(Disk& disk, std::uint64_t address, unsigned char const* bytes, 
 
 void set_size(Disk& disk, std::uint64_t size) {
   if (disk.error != 0 || disk.size == size) return;
+  if (disk.undo && !disk.holding && size < disk.size) disk.undo->keep(disk.descriptor, size, disk.size - size);
   if (!disk.holding && ftruncate(disk.descriptor, static_cast<off_t>(size)) != 0)
     disk.error = errno;
   else

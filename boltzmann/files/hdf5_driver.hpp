@@ -11,9 +11,11 @@
 #pragma once
 
 #include <hdf5.h>
+#include <boltzmann/files/undo_log.hpp>
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -32,7 +34,8 @@ struct Disk {
   bool holding = false;  ///< writes are kept in `held`, not in the file
   std::uint64_t size_in_file = 0;
   std::vector<std::pair<std::uint64_t, std::vector<unsigned char>>>
-      held;  ///< address and bytes, in the order of the writes
+      held;                     ///< address and bytes, in the order of the writes
+  std::optional<UndoLog> undo;  ///< of what is written over and cut off
 
   int openings = 0;  ///< that HDF5 has not closed
 

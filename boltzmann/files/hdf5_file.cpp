@@ -309,6 +309,17 @@ void File::sync() {
   if (fdatasync(disk_->descriptor) != 0) throw Error(path_ + ": can't be brought to the disk: " + reason(errno));
 }
 
+void File::keep_in(std::string log, UndoLog::Label const& label) {
+  disk_->undo.emplace(std::move(log), disk_->size, label);
+}
+
+bool File::take_back(std::string const& path, std::string const& log, UndoLog::Label const& label,
+                     std::function<bool()> const& right) {
+  Disk disk;
+  disk.open(path, Disk::Use::change);
+  return UndoLog::take_back(log, disk.descriptor, label, right);
+}
+
 void File::close() {
   Silence const silence;
   hid_t const id = std::exchange(id_, -1);

@@ -1,6 +1,8 @@
 // HDF5 files: a small owner of files, datasets and attributes in which every failure is one readable Error.
 #pragma once
 
+#include <boltzmann/files/undo_log.hpp>
+
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -102,6 +104,11 @@ class File {
   void flush();
   /// Brings what has been flushed to the disk, so that a machine without power loses none of it.
   void sync();
+  /// From here on a log keeps what the file, which has been flushed, is now; take_back makes it that again. Error if
+  /// another run is writing the file.
+  void keep_in(std::string log, UndoLog::Label const& label);
+  static bool take_back(std::string const& path, std::string const& log, UndoLog::Label const& label,
+                        std::function<bool()> const& right);
   /// Flushes and closes, and tells of failures, which the destructor can't.
   void close();
 

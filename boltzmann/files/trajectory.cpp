@@ -13,6 +13,8 @@
 #include <bit>
 #include <cctype>
 #include <cmath>
+#include <cstdio>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -139,7 +141,9 @@ struct Trajectory::State {
   void lay_out(BoxEdges const& box, std::string const& first);
   void link_frames(std::string const& first, std::string const& element);
   void open_datasets(std::span<AnyEnsemble const* const> list, BoxEdges const& box);
+  void take_back(std::int64_t last_step) const;
   void cut(std::int64_t last_step);
+  std::string log() const { return path + ".undo"; }
   void check(std::int64_t at_step, std::span<AnyEnsemble const* const> list, BoxEdges const& box) const;
   void write_frame(std::int64_t at_step, double at_time, std::span<AnyEnsemble const* const> list, BoxEdges const& box);
   void grow(StoredEnsemble& stored, std::size_t index, std::uint64_t capacity);
@@ -328,6 +332,23 @@ void Trajectory::State::open_datasets(std::span<AnyEnsemble const* const> list, 
   open = true;
 }
 
+// Makes the file what it was when it had the frames until a step, if that was marked.
+void Trajectory::State::take_back(std::int64_t last_step) const {
+  auto const first_frames = [&](std::int64_t last) -> UndoLog::Label {
+    auto const stored = File::open(path);
+    std::size_t const count = layout::frames_until(layout::frames(*stored).steps, last);
+    return {count, layout::checksum_of_frames(*stored, count)};
+  };
+  auto const wanted = first_frames(last_step);
+  File::take_back(path, log(), wanted, [&] {
+    try {
+      return first_frames(std::numeric_limits<std::int64_t>::max()) == wanted;
+    } catch (Error const&) {
+      return false;
+    }
+  });
+}
+
 // Cuts off the frames after a step, and those that a killed run has left half-written.
 void Trajectory::State::cut(std::int64_t last_step) {
   auto const names = layout::ensembles(*file);
@@ -479,12 +500,15 @@ Trajectory::Trajectory(std::string path, TrajectoryOptions options) : state_(std
   state_->path = path;
   state_->options = std::move(options);
   state_->file = File::create(std::move(path), true);
+  std::remove(state_->log().c_str());
 }
 
 Trajectory Trajectory::append_to(std::string path, std::int64_t last_step, TrajectoryOptions options) {
   auto state = std::make_unique<State>();
   state->path = path;
   state->options = std::move(options);
+  state->take_back(last_step);
+  std::remove(state->log().c_str());
   state->file = File::open_for_writing(std::move(path));
   state->laid_out = true;
   state->cut(last_step);
@@ -522,6 +546,10 @@ void Trajectory::write(std::int64_t step, double time, std::span<AnyEnsemble con
 }
 
 std::size_t Trajectory::frames() const { return state_ ? state_->frames : 0; }
+void Trajectory::mark() {
+  if (state_ && state_->file && state_->laid_out)
+    state_->file->keep_in(state_->log(), {state_->frames, state_->checksum});
+}
 void Trajectory::sync() {
   if (state_ && state_->file) state_->file->sync();
 }

@@ -46,8 +46,8 @@ class Trajectory {
   explicit Trajectory(std::string path, TrajectoryOptions options = {});
 
   /// Goes on with a file: the frames after `last_step` are cut off, so that a resumed run leaves what a run without a
-  /// stop would have left. The first frame written must have the same ensembles, with the same fields, as those in the
-  /// file.
+  /// stop would have left. If that was marked when the frames that stay were all, the file becomes what it was, byte for
+  /// byte. The first frame written must have the same ensembles, with the same fields, as those in the file.
   static Trajectory append_to(std::string path, std::int64_t last_step, TrajectoryOptions options = {});
 
   ~Trajectory();
@@ -61,6 +61,9 @@ class Trajectory {
 
   std::size_t frames() const;
 
+  /// From here on a log beside the file, `path` + ".undo", keeps what append_to needs to make the file what it is now.
+  /// The next mark replaces it; so does whoever goes on with the file, or makes it anew.
+  void mark();
   /// Brings all frames to the disk.
   void sync();
   /// Of all that its frames hold: two trajectories of one number of frames that differ anywhere differ in it.

@@ -286,7 +286,7 @@ struct Recording::State {
   void go_on_with_files(Checkpoint const& saved) {
     frames.check(saved, folder.path("trajectory.h5"));
     rows.go_on(folder.path("diagnoses.csv"), saved);
-    frames.go_on(folder.path("trajectory.h5"), saved.step);
+    frames.go_on(folder.path("trajectory.h5"), saved);
     if (every_mesh > 0) mesh_frames.emplace(MeshFrames::append_to(folder.name(), saved.step));
   }
 

@@ -8,7 +8,10 @@
 #include <fmt/format.h>
 
 #include <bit>
+#include <cstdio>
 #include <filesystem>
+#include <limits>
+#include <utility>
 
 namespace boltzmann {
 namespace {
@@ -60,37 +63,38 @@ void RunFrames::check(Checkpoint const& saved, std::string const& path) const {
                     path, saved.step));
 }
 
-void RunFrames::go_on(std::string const& path, std::int64_t step) {
+void RunFrames::go_on(std::string const& path, Checkpoint const& saved) {
   if (every == 0) return;
   path_ = path;
-  stopped_ = -1;
+  file_.reset();
   TrajectoryReader const stored(path);
-  std::size_t stay = 0;
-  for (std::size_t frame = 0; frame < stored.frames_until(step); ++frame)
-    if (stored.steps()[frame] % every == 0)
-      ++stay;
-    else
-      stopped_ = stored.steps()[frame];
-  before_stop_ = {stay, stored.checksum(stay)};
-  std::size_t const frames = stored.frames_until(step);
-  times_.assign(stored.times().begin(), stored.times().begin() + static_cast<std::ptrdiff_t>(frames));
+  std::size_t const frames = stored.frames_until(saved.step);
+  auto const found = saved.state.find("trajectory.h5");
+  std::size_t const stay = found == saved.state.end() ? frames : static_cast<std::size_t>(found->second.at(2));
+  stay_ = {stay, stored.checksum(stay)};
+  stay_until_ = stay > 0 ? stored.steps()[stay - 1] : std::numeric_limits<std::int64_t>::min();
+  stopped_ = saved.step;
+  times_.assign(stored.times().begin(), stored.times().begin() + static_cast<std::ptrdiff_t>(stay));
   sizes_.clear();
   same_particles_ = true;
   shown_ = false;
   for (auto const& ensemble : stored.ensembles())
-    for (std::size_t frame = 0; frame < frames; ++frame) {
+    for (std::size_t frame = 0; frame < stay; ++frame) {
       std::size_t const size = stored.size(frame, ensemble.name);
       if (frame == 0) sizes_.push_back(size);
       same_particles_ = same_particles_ && size == sizes_.back();
     }
-  file_.emplace(Trajectory::append_to(path, step, options()));
+  if (frames == stay) open();
+}
+
+void RunFrames::open() {
+  file_.emplace(Trajectory::append_to(path_, stay_until_, options()));
+  marked_ = false;
 }
 
 void RunFrames::write() {
-  if (stopped_ >= 0) {
-    close();
-    go_on(path_, (simulation_.step() - 1) / every * every);
-  }
+  if (!file_) open();
+  if (!std::exchange(marked_, true)) file_->mark();
   auto const ensembles = supervised_by(simulation_.schemes());
   file_->write(simulation_.step(), simulation_.time(),
                std::vector<AnyEnsemble const*>(ensembles.begin(), ensembles.end()),
@@ -119,21 +123,24 @@ void RunFrames::show(bool finished) {
 }
 
 void RunFrames::write_last() {
-  if (file_ && simulation_.step() % every != 0 && simulation_.step() != stopped_) write();
+  if (every == 0 || path_.empty() || simulation_.step() % every == 0) return;
+  if (file_ || simulation_.step() != stopped_) write();
 }
 
 void RunFrames::save(Checkpoint& checkpoint) {
-  if (!file_) return;
-  file_->sync();
-  auto const [count, checksum] = stopped_ >= 0 ? before_stop_ : std::pair(file_->frames(), file_->checksum());
+  if (every == 0) return;
+  if (file_) file_->sync();
+  auto const [count, checksum] = file_ ? std::pair(file_->frames(), file_->checksum()) : stay_;
   auto& state = checkpoint.state["trajectory.h5"] = halves(checksum);
   state.push_back(static_cast<double>(count));
+  marked_ = false;
 }
 
 void RunFrames::close() {
   if (!file_) return;
   auto file = std::exchange(file_, std::nullopt);
   file->close();
+  if (!marked_) std::remove((path_ + ".undo").c_str());
   show(true);
 }
 

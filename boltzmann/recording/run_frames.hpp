@@ -14,8 +14,9 @@
 
 namespace boltzmann {
 
-/// A frame every so many steps, and one of the last state. Where a run was stopped between two frames and goes on, its
-/// last frame is taken back: a run without a stop doesn't have it.
+/// A frame every so many steps, and one of the last state. Where a run goes on from a checkpoint, the frames that were
+/// written after it are taken back: of a run that was killed, and the last one of a run that was stopped between two,
+/// which a run without a stop doesn't have; that one stays until the next frame.
 class RunFrames {
  public:
   RunFrames(Simulation const& simulation, UnitSystem const& units) : simulation_(simulation), units_(units) {}
@@ -25,7 +26,7 @@ class RunFrames {
   void begin(std::string const& path);
   /// Error if the file does not begin with the frames that the saved run had written.
   void check(Checkpoint const& saved, std::string const& path) const;
-  void go_on(std::string const& path, std::int64_t step);
+  void go_on(std::string const& path, Checkpoint const& saved);
   void write();
   /// The last state, unless it has a frame.
   void write_last();
@@ -38,6 +39,7 @@ class RunFrames {
 
  private:
   TrajectoryOptions options() const;
+  void open();
   /// For MDAnalysis, where all frames have the same particles; nothing if it can't be written.
   void show(bool finished);
   std::string view() const { return path_ + "md"; }
@@ -46,11 +48,13 @@ class RunFrames {
   UnitSystem const& units_;
   std::string path_;
   std::optional<Trajectory> file_;
-  std::int64_t stopped_ = -1;                          // the step of a stop between two frames, which has one; -1: none
-  std::pair<std::size_t, std::uint64_t> before_stop_;  // number and checksum of the frames before it
-  std::vector<double> times_;                          // of all frames
-  std::vector<std::size_t> sizes_;                     // of ensembles, in the first one
-  bool same_particles_ = true, shown_ = false;         // in all; since the file was begun, or gone on with
+  bool marked_ = false;  // since the last checkpoint
+  // Until a stored file is opened: the step, number and checksum of the frames that stay, and the step of the stop.
+  std::int64_t stay_until_ = 0, stopped_ = 0;
+  std::pair<std::size_t, std::uint64_t> stay_;
+  std::vector<double> times_;                   // of all frames
+  std::vector<std::size_t> sizes_;              // of ensembles, in the first one
+  bool same_particles_ = true, shown_ = false;  // in all; since the file was begun, or gone on with
 };
 
 }  // namespace boltzmann

@@ -48,6 +48,7 @@ TEST_P(KilledAndResumed, LeavesWhatARunWithoutAStopLeaves) {
     EXPECT_EQ(lines_in(text_of(folder / "whole/diagnoses.csv")), 2 + static_cast<std::size_t>(stopped_at + 70) / 10);
   }
   expect_same_trajectory(folder / "whole", folder / "stopped");
+  EXPECT_TRUE(text_of(folder / "whole/trajectory.h5") == text_of(folder / "stopped/trajectory.h5"));
   if (on_mesh) expect_same_mesh_frames(folder / "whole", folder / "stopped");
 }
 

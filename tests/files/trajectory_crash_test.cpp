@@ -6,6 +6,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 #include <boltzmann/core/error.hpp>
+#include <boltzmann/files/text_file.hpp>
 #include <boltzmann/files/trajectory.hpp>
 #include <boltzmann/particles/ensemble.hpp>
 #include <boltzmann/particles/newton.hpp>
@@ -78,6 +79,7 @@ struct Writer {
       ::close(ends[0]);
       Example run(size);
       Trajectory file = from == 0 ? Trajectory(path) : Trajectory::append_to(path, from - 1);
+      file.mark();
       for (std::int64_t step = from;; ++step) {
         run.write(file, step);
         if (::write(ends[1], &step, sizeof step) != static_cast<ssize_t>(sizeof step)) _exit(1);
@@ -125,6 +127,30 @@ TEST(TrajectoryCrash, KilledRunsLeaveEveryFrameAndGoOn) {
       ASSERT_LE(static_cast<std::int64_t>(frames), writer.told + 2) << "trial " << trial;
       from = static_cast<std::int64_t>(frames) - static_cast<std::int64_t>(random() % 3);
       from = std::max<std::int64_t>(from, 1);
+    }
+  }
+}
+
+// Wherever it is killed, also while it writes what it may have to be taken back to.
+TEST(TrajectoryCrash, AMarkedFileIsTakenBackToTheByteAfterAKill) {
+  TemporaryFolder const folder;
+  std::mt19937 random(test_seed(6));
+  for (std::size_t const size : {40, 3000}) {
+    auto tell = [run = Example(size)](Trajectory file, std::int64_t from, std::int64_t to) mutable {
+      for (std::int64_t step = from; step < to; ++step) run.write(file, step);
+      file.close();
+    };
+    std::string const whole = folder / "whole.h5", path = folder / "t.h5";
+    tell(Trajectory(whole), 0, 60);
+    for (int trial = 0; trial < 15; ++trial) {
+      auto const mark = static_cast<std::int64_t>(1 + random() % 40);
+      tell(Trajectory(path), 0, mark);
+      Writer writer(path, size, mark);
+      writer.wait_for(mark + static_cast<std::int64_t>(random() % 8));
+      usleep(random() % 3000);
+      writer.kill_now();
+      tell(Trajectory::append_to(path, mark - 1), mark, 60);
+      ASSERT_TRUE(read_text(path) == read_text(whole)) << "trial " << trial << ", marked at " << mark;
     }
   }
 }

@@ -14,6 +14,7 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <limits>
 #include <random>
@@ -319,6 +320,96 @@ TEST(Trajectory, ResumedRunLeavesTheFileOfARunWithoutAStop) {
     resumed.close();
     EXPECT_EQ(content(folder / "t.h5"), expected) << "resumed after step " << last;
   }
+}
+
+// What two ensembles, of which one grows, leave in a trajectory.
+struct Story {
+  Ensemble<Newton<2>> ions{"ions", 3}, dust{"dust", 1};
+
+  void tell(Trajectory& file, std::int64_t from, std::int64_t to) {
+    AnyEnsemble const* const list[] = {&ions, &dust};
+    for (std::int64_t step = from; step < to; step += 10) {
+      dust.resize(static_cast<std::size_t>(1 + step / 400));
+      set_state(ions, step);
+      set_state(dust, step);
+      file.write(step, 0.1 * static_cast<double>(step), list, moving_box(2, step));
+    }
+  }
+  void tell_all(std::string const& path, std::int64_t last) {
+    Trajectory file(path);
+    tell(file, 0, last);
+    file.close();
+  }
+};
+
+TEST(Trajectory, AMarkedFileIsTakenBackToTheByte) {
+  TemporaryFolder const folder;
+  std::string const path = folder / "t.h5", log = path + ".undo";
+  Story story;
+  story.tell_all(folder / "whole.h5", 1500);
+  std::string const whole = read_text(folder / "whole.h5");
+  // The index of a dataset's chunks gets new blocks now and then: at marks or behind them. Groups of small frames share
+  // a chunk.
+  for (std::int64_t const mark : {10, 50, 170, 680})
+    for (std::int64_t const beyond : {10, 300}) {
+      SCOPED_TRACE(testing::Message() << "marked at " << mark << ", " << beyond << " steps beyond");
+      std::string then;
+      {
+        Trajectory file(path);
+        story.tell(file, 0, mark);
+        file.mark();
+        then = read_text(path);
+        story.tell(file, mark, mark + beyond);
+      }
+      EXPECT_NE(read_text(path), then);
+      auto resumed = Trajectory::append_to(path, mark - 10);
+      EXPECT_EQ(resumed.frames(), static_cast<std::size_t>(mark / 10));
+      EXPECT_FALSE(std::filesystem::exists(log));
+      story.tell(resumed, mark, 1500);
+      resumed.close();
+      EXPECT_TRUE(read_text(path) == whole);
+    }
+}
+
+TEST(Trajectory, AMarkThatDoesNotFitIsNoHindrance) {
+  TemporaryFolder const folder;
+  std::string const path = folder / "t.h5", log = path + ".undo";
+  Story story;
+  story.tell_all(folder / "whole.h5", 1000);
+  auto const expected = content(folder / "whole.h5");
+  auto const begin = [&] {
+    Trajectory file(path);
+    story.tell(file, 0, 400);
+    file.mark();
+    story.tell(file, 400, 500);
+  };
+  auto const goes_on_after = [&](std::int64_t last) {
+    auto resumed = Trajectory::append_to(path, last);
+    story.tell(resumed, last + 10, 1000);
+    resumed.close();
+    return content(path) == expected;
+  };
+  begin();
+  EXPECT_TRUE(goes_on_after(450)) << "frames beyond the mark stay";
+  begin();
+  EXPECT_TRUE(goes_on_after(100)) << "frames before the mark go";
+  // A log that was torn, or has been changed: the numbers are right all the same.
+  std::mt19937 random(test_seed(8));
+  for (int trial = 0; trial < 24; ++trial) {
+    begin();
+    std::string text = read_text(log);
+    if (trial % 2 == 0)
+      text.resize(random() % text.size());
+    else
+      text[random() % text.size()] ^= static_cast<char>(1U << random() % 8);
+    std::ofstream(log, std::ios::binary) << text;
+    ASSERT_TRUE(goes_on_after(390)) << "trial " << trial;
+  }
+  // Where there can be no log.
+  std::filesystem::remove(log);
+  std::filesystem::create_directory(log);
+  begin();
+  EXPECT_TRUE(goes_on_after(390));
 }
 
 // A disk that fails, or a power that is lost, may leave the last frames half written: they say so, those before them

@@ -84,6 +84,16 @@ std::vector<double> virial(Ensemble<P> const& target, Ensemble<Q> const& source,
   return result;
 }
 
+template <class P, class Q, class Law>
+double largest_term(Ensemble<P> const& target, Ensemble<Q> const& source, Law const& law) {
+  double most = 0;
+  for (std::size_t i = 0; i < target.size(); ++i)
+    for (std::size_t j = 0; j < source.size(); ++j)
+      if (static_cast<void const*>(&target) != static_cast<void const*>(&source) || i != j)
+        most = std::max(most, magnitude(law(target[i], source[j]).force));
+  return most;
+}
+
 double largest(std::vector<double> const& a) {
   double most = 0;
   for (double const x : a) most = std::max(most, std::abs(x));
@@ -110,7 +120,7 @@ void compare(PairKernels const& kernels, int width, Ensemble<P> const& target, E
   auto const expected = oracle::influences(target, source, law, Box(low, high), no_cutoff);
   auto const moments = virial(target, source, law);
   Output const whole = run(kernels, target, source, law, {});
-  double scale = 0;
+  double scale = largest_term(target, source, law);  // a sum may be far smaller
   for (auto const& influence : expected.influence) scale = std::max(scale, largest(influence));
   std::size_t const n = target.influence_size();
   for (std::size_t i = 0; i < target.size(); ++i)
