@@ -147,9 +147,9 @@ bool is_folded(Grid const& grid, Bounds const& bounds) {
 /// One sorted copy, and what all ranks know of its rows.
 struct Neighbourhood::Sorting {
   SortedCopy* copy;
-  std::vector<std::uint32_t> own;   ///< numbers of this rank's particles before, ascending
-  std::vector<double> references;   ///< theirs
-  std::vector<std::uint32_t> unit;  ///< in which each of them is
+  std::vector<std::uint32_t> own;        ///< numbers of this rank's particles before, ascending
+  std::unique_ptr<double[]> references;  ///< theirs
+  std::vector<std::uint32_t> unit;       ///< in which each of them is
   Extents extents = nothing();
   Grid grid, cells;  ///< that sorts rows, and that lists are found with
   int dimension = 1;
@@ -274,7 +274,7 @@ void Neighbourhood::agree_on_extents(std::vector<Sorting>& all, double reach) {
       int const axis = static_cast<int>(a);
       Interval rows{infinite, -infinite}, all_images = rows;
       auto const take = [](Interval& in, double x) { in.low = std::min(in.low, x), in.high = std::max(in.high, x); };
-      double const* x = one.references.data() + a;
+      double const* x = one.references.get() + a;
       for (double& count : with_images) {
         take(rows, *x);
         if (auto const [first, last] = images.turns_within(axis, reach, *x); first != last) {
@@ -325,7 +325,7 @@ bool Neighbourhood::agree_on_order(std::vector<Sorting>& all, double reach) {
     Sorting& one = all[e];
     std::size_t const at = counts.size(), units = one.units();
     counts.resize(at + (columns ? 2 : 1) * units);
-    one.unit = cells_of(one.grid, one.references.data(), static_cast<std::size_t>(one.dimension), one.own.size());
+    one.unit = cells_of(one.grid, one.references.get(), static_cast<std::size_t>(one.dimension), one.own.size());
     auto const cells_of_unit = static_cast<std::uint32_t>(one.cells_of_unit());
     for (auto& unit : one.unit) ++counts[at + (unit /= cells_of_unit)];
     if (columns) one.add_work(lists_, e < row_of_.size() ? &row_of_[e] : nullptr, counts.data() + at + units);
@@ -393,7 +393,7 @@ std::vector<std::vector<std::uint32_t>> Neighbourhood::readers(Sorting const& on
   std::vector<std::vector<Reader>> of_unit(one.units());
   std::vector<std::vector<std::uint32_t>> to(ranks);
   for (std::size_t k = 0; k < one.own.size(); ++k) {
-    double const* const x = one.references.data() + k * static_cast<std::size_t>(one.dimension);
+    double const* const x = one.references.get() + k * static_cast<std::size_t>(one.dimension);
     std::size_t const unit = one.unit[k];
     auto& readers = of_unit[unit];
     if (readers.empty()) readers = readers_of(unit);
@@ -411,36 +411,30 @@ std::vector<std::vector<std::uint32_t>> Neighbourhood::readers(Sorting const& on
 }
 
 /// This rank's part of a build, from the particles that it knows now.
-void Neighbourhood::build_part(Sorting const& one, std::vector<std::uint32_t> const& numbers, std::size_t e,
-                               double reach, int threads) {
+void Neighbourhood::build_part(Sorting const& one, std::vector<std::uint32_t> numbers, std::size_t e, double reach,
+                               int threads) {
   auto const rank = static_cast<std::size_t>(division_->team().rank());
   auto const D = static_cast<std::size_t>(one.dimension);
-  std::vector<double> const at = one.copy->references_of(numbers);
-  Cells const sorted(one.grid, at.data(), D, numbers.size(), one.copy->sorting_reach(reach, box_->edges()), threads);
   SortedCopy::Part part;
+  part.references = one.copy->references_of(numbers);
+  Cells const sorted(one.grid, part.references.get(), D, numbers.size(), one.copy->sorting_reach(reach, box_->edges()),
+                     threads);
   part.grid = one.cells;
-  part.particles.resize(numbers.size());
+  part.order = sorted.items();
   part.rows.resize(numbers.size());
-  part.references.resize(at.size());
   auto& owners = division_->owners_here(one.copy->ensemble());
   Numbers own(one.copy->ensemble().size());
   std::size_t const cells_of_unit = one.cells_of_unit();
   auto run = one.runs.begin();
   for (std::size_t unit = 0, n = 0; n < numbers.size(); ++unit)
     for (std::size_t row = one.start[unit], end = sorted.start()[(unit + 1) * cells_of_unit]; n < end; ++n, ++row) {
-      std::size_t const item = sorted.items()[n];
-      std::uint32_t const i = numbers[item];
+      std::uint32_t const i = numbers[part.order[n]];
       while (row >= run[1].first) ++run;
-      part.particles[n] = i;
       part.rows[n] = static_cast<std::uint32_t>(row);
-      double const* const from = at.data() + D * item;
-      double* const to = part.references.data() + D * n;
-      to[0] = from[0];
-      if (D > 1) to[1] = from[1];
-      if (D > 2) to[2] = from[2];
       owners[i] = static_cast<std::uint16_t>(run->rank);
       if (run->rank == rank) own.add(i);
     }
+  part.particles = std::move(numbers);
   auto places = one.read_at[rank];
   if (!one.read_by_itself)  // but it is asked who is near a place
     places.insert(places.end(), one.places[rank].begin(), one.places[rank].end());

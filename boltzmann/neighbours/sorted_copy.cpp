@@ -125,8 +125,9 @@ void SortedCopy::build_part(double reach, Part part, int threads) {
   built_by_number_.resize(D * all);
   for_ranges(known_.size(), refresh_grain, threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t n = begin; n < end; ++n) {
-      std::uint32_t const i = part.particles[n];
-      double const* const reference = part.references.data() + D * n;
+      std::size_t const item = part.order[n];
+      std::uint32_t const i = part.particles[item];
+      double const* const reference = part.references.get() + D * item;
       for (std::size_t a = 0; a < D; ++a) built_by_number_[D * i + a] = reference[a];
       order_[known_[n]] = i;
       take_reference(known_[n], reference);
@@ -148,11 +149,11 @@ void SortedCopy::take_reference(std::size_t k, double const* reference) {
   for (int a = 0; a < dimension; ++a) to[a] = reference[a], steps[a] = in_steps(reference[a], reach_);
 }
 
-std::vector<double> SortedCopy::references_of(std::span<std::uint32_t const> particles) const {
+std::unique_ptr<double[]> SortedCopy::references_of(std::span<std::uint32_t const> particles) const {
   auto const D = static_cast<std::size_t>(box_->dimension());
   auto const edges = box_->edges();
-  std::vector<double> references(D * particles.size());
-  double* to = references.data();
+  auto references = std::make_unique_for_overwrite<double[]>(D * particles.size());
+  double* to = references.get();
   for (std::uint32_t const i : particles) {
     double const* const row = ensemble_->row(i);
     for (std::size_t a = 0; a < D; ++a) {
@@ -437,18 +438,18 @@ void SortedCopy::sort_all(Part const* part, int threads) {
       if (part->near(references_.data() + 4 * std::size_t{k})) found.push_back(k);
   std::size_t const rows = part ? found.size() : owned(), count = rows + ghost_source_.size();
   auto const row = [&](std::size_t n) { return part ? std::size_t{found[n]} : n; };
-  AlignedVector<double> at(4 * count);
+  auto const at = std::make_unique_for_overwrite<double[]>(4 * count);
   for_ranges(count, refresh_grain, threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t n = begin; n < std::min(rows, end); ++n)
-      std::copy_n(references_.data() + 4 * row(n), 4, at.data() + 4 * n);
+      std::copy_n(references_.data() + 4 * row(n), 4, at.get() + 4 * n);
     for (std::size_t n = std::max(rows, begin); n < end; ++n) {
       double const* const source = references_.data() + 4 * std::size_t{ghost_source_[n - rows]};
       Turns const& turns = turns_[ghost_turns_[n - rows]];
       for (int a = 0; a < dimension; ++a) at[4 * n + a] = images_.at(a, turns, source[a]);
     }
   });
-  cells_ = part ? Cells(part->grid, at.data(), 4, count, reach_, threads)
-                : Cells(dimension, at.data(), 4, count, reach_, threads);
+  cells_ = part ? Cells(part->grid, at.get(), 4, count, reach_, threads)
+                : Cells(dimension, at.get(), 4, count, reach_, threads);
   auto const& items = cells_.items();
   for (int a = 0; a < 3; ++a) position_[a].resize(count + candidate_padding);
   item_.resize(count + candidate_padding);

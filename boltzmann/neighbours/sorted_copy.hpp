@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <new>
 #include <span>
 #include <vector>
@@ -82,9 +83,10 @@ class SortedCopy {
   };
   /// What one rank of a team sees of a build that is all ranks' together.
   struct Part {
-    std::vector<std::uint32_t> particles;  ///< that it knows, in the order of
-    std::vector<std::uint32_t> rows;       ///< their rows, ascending,
-    std::vector<double> references;        ///< and references, dimension() numbers each
+    std::vector<std::uint32_t> particles;  ///< that it knows
+    std::unique_ptr<double[]> references;  ///< of these, dimension() numbers each
+    std::vector<std::uint32_t> rows;       ///< that they have, ascending
+    std::vector<std::uint32_t> order;      ///< rows[n] is that of particles[order[n]]
     Grid grid;                             ///< for the references of all rows, images included
     /// Where those are found whose neighbours are sought here. Rows and images elsewhere are in no cell.
     NearPlaces near;
@@ -110,7 +112,7 @@ class SortedCopy {
   /// What build() refuses, and the positions of now as references, dimension() numbers for each of these particles.
   /// PhysicsFailure if one is not finite.
   void check_reach(double reach, Box::Edges const& edges) const;
-  std::vector<double> references_of(std::span<std::uint32_t const> particles) const;
+  std::unique_ptr<double[]> references_of(std::span<std::uint32_t const> particles) const;
   /// The reach for which cells are made that sort rows.
   double sorting_reach(double reach, Box::Edges const& edges) const;
   /// The rows that are known, ascending: known(n), n < known().
