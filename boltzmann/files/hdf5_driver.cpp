@@ -223,6 +223,7 @@ Disk::~Disk() { close(); }
 
 void Disk::close() {
   if (int const id = std::exchange(descriptor, -1); id >= 0) ::close(id);
+  if (undo) undo->close();
 }
 
 void Disk::open(std::string const& path, Use use) {

@@ -104,9 +104,9 @@ class File {
   void flush();
   /// Brings what has been flushed to the disk, so that a machine without power loses none of it.
   void sync();
-  /// From here on a log keeps what the file, which has been flushed, is now; take_back makes it that again. Error if
-  /// another run is writing the file.
+  /// From here on a log keeps what the file, which has been flushed, is now.
   void keep_in(std::string log, UndoLog::Label const& label);
+  /// UndoLog::take_back, of a file that is closed. Error if another run is writing it.
   static bool take_back(std::string const& path, std::string const& log, UndoLog::Label const& label,
                         std::function<bool()> const& right);
   /// Flushes and closes, and tells of failures, which the destructor can't.

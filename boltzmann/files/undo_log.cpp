@@ -101,14 +101,16 @@ UndoLog::UndoLog(std::string path, std::uint64_t size, Label const& label)
 }
 
 UndoLog::~UndoLog() {
-  if (descriptor_ < 0) return;
-  if (fdatasync(descriptor_) == 0) {
-    head_.closed = 1;
-    write_head();
-  }
+  if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+void UndoLog::close() {
+  if (descriptor_ < 0 || fdatasync(descriptor_) != 0) return;
+  head_.closed = 1;
+  write_head();
   if (descriptor_ < 0) return;
   fdatasync(descriptor_);
-  close(descriptor_);
+  ::close(std::exchange(descriptor_, -1));
 }
 
 void UndoLog::write_head() {
@@ -120,7 +122,7 @@ void UndoLog::write(std::uint64_t at, void const* bytes, std::size_t count) {
   if (descriptor_ < 0 || write_at(descriptor_, at, bytes, count)) return;
   (void)!ftruncate(descriptor_, 0);
   unlink(path_.c_str());
-  close(std::exchange(descriptor_, -1));
+  ::close(std::exchange(descriptor_, -1));
 }
 
 void UndoLog::keep(int file, std::uint64_t address, std::uint64_t count) {
@@ -150,7 +152,7 @@ bool UndoLog::take_back(std::string const& path, int file, Label const& label, s
       head.checksum == head.sum() && head.label == label &&
       (head.closed != 0 || (head.boot == this_boot() && head.boot != decltype(head.boot){})))
     then = records(log, sizeof head, head.records);
-  close(log);
+  ::close(log);
   struct stat facts {};
   if (!then || fstat(file, &facts) != 0) return false;
   auto const size = static_cast<std::uint64_t>(facts.st_size);

@@ -27,6 +27,8 @@ class UndoLog {
 
   /// Keeps what stands in these bytes of the file, before they are written over or cut off.
   void keep(int file, std::uint64_t address, std::uint64_t count);
+  /// The file has been closed: brings the log to the disk, where it can be used after a loss of power, too.
+  void close();
 
   /// Makes the file what it was when the log of this label began, if `right` says that it is that, having been asked
   /// before the file is cut to its length of then; else the file stays what it is. Whether it was done.
