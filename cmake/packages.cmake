@@ -51,7 +51,7 @@ configure_file(${CMAKE_CURRENT_LIST_DIR}/boltzmann.pc.in ${CMAKE_CURRENT_BINARY_
 install(TARGETS bzm COMPONENT program)
 install(TARGETS boltzmann COMPONENT library)
 install(DIRECTORY boltzmann DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT library FILES_MATCHING PATTERN "*.hpp"
-        PATTERN "bzm" EXCLUDE PATTERN "web" EXCLUDE PATTERN "figure_paint.hpp" EXCLUDE PATTERN "figure_text.hpp" EXCLUDE PATTERN "figure_page.hpp" EXCLUDE
+        PATTERN "bzm" EXCLUDE PATTERN "web" EXCLUDE PATTERN "figure_paint.hpp" EXCLUDE PATTERN "figure_text.hpp" EXCLUDE PATTERN "figure_page.hpp" EXCLUDE PATTERN "figure_plan.hpp" EXCLUDE
         PATTERN "picture_scene.hpp" EXCLUDE)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/boltzmann-config.cmake ${CMAKE_CURRENT_BINARY_DIR}/boltzmann-config-version.cmake
         DESTINATION ${config_folder} COMPONENT library)

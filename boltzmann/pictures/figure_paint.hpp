@@ -3,21 +3,12 @@
 
 #include <cairo.h>
 #include <boltzmann/pictures/colour.hpp>
+#include <boltzmann/pictures/figure_plan.hpp>
 
 #include <cstdint>
 #include <vector>
 
 namespace boltzmann {
-
-struct DevicePoint {
-  double x, y;
-};
-
-struct DeviceBox {
-  double left = 0, top = 0, width = 0, height = 0;
-  double right() const { return left + width; }
-  double bottom() const { return top + height; }
-};
 
 /// How a disc looks: its fill and, if wider than 0, a rim inside its radius.
 struct DiscStyle {

@@ -57,10 +57,11 @@ std::vector<TextPart> text_parts(std::string_view markup) {
   return parts;
 }
 
-void TextPen::choose(double size, Weight weight) const {
+// Raised and lowered text is smaller.
+void TextPen::choose(Font font, int level) const {
   cairo_select_font_face(cairo_, "sans-serif", CAIRO_FONT_SLANT_NORMAL,
-                         weight == Weight::bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
-  cairo_set_font_size(cairo_, size);
+                         font.bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
+  cairo_set_font_size(cairo_, level == 0 ? font.size : small * font.size);
   cairo_font_options_t* options = cairo_font_options_create();
   cairo_font_options_set_hint_style(options, CAIRO_HINT_STYLE_NONE);
   cairo_font_options_set_hint_metrics(options, CAIRO_HINT_METRICS_OFF);
@@ -69,24 +70,23 @@ void TextPen::choose(double size, Weight weight) const {
   cairo_font_options_destroy(options);
 }
 
-double TextPen::width(std::string_view markup, double size, Weight weight) const {
+double TextPen::width(std::string_view markup, Font font) const {
   double sum = 0;
   for (auto const& part : text_parts(markup)) {
-    choose(part.level == 0 ? size : small * size, weight);
+    choose(font, part.level);
     sum += advance(cairo_, part.text);
   }
   return sum;
 }
 
-void TextPen::draw(std::string_view markup, double x, double y, double size, double align, Weight weight,
-                   bool rotated) const {
-  double const total = align == 0 ? 0 : width(markup, size, weight);
+void TextPen::draw(FigurePlan::Text const& text) const {
+  double const total = text.align == 0 ? 0 : width(text.markup, text.font), size = text.font.size;
   cairo_save(cairo_);
-  cairo_translate(cairo_, x, y);
-  if (rotated) cairo_rotate(cairo_, -std::numbers::pi / 2);
-  double at = -align * total;
-  for (auto const& part : text_parts(markup)) {
-    choose(part.level == 0 ? size : small * size, weight);
+  cairo_translate(cairo_, text.x, text.y);
+  if (text.rotated) cairo_rotate(cairo_, -std::numbers::pi / 2);
+  double at = -text.align * total;
+  for (auto const& part : text_parts(text.markup)) {
+    choose(text.font, part.level);
     cairo_move_to(cairo_, at, part.level > 0 ? -0.38 * size : part.level < 0 ? 0.16 * size : 0);
     if (outlines_) {
       cairo_text_path(cairo_, part.text.c_str());
@@ -98,25 +98,6 @@ void TextPen::draw(std::string_view markup, double x, double y, double size, dou
   }
   cairo_new_path(cairo_);
   cairo_restore(cairo_);
-}
-
-std::vector<std::string> TextPen::wrapped(std::string_view markup, double size, double most, Weight weight) const {
-  std::vector<std::string> lines;
-  std::string line;
-  std::size_t begin = 0;
-  while (begin < markup.size()) {
-    std::size_t const end = std::min(markup.find(' ', begin), markup.size());
-    std::string const longer = (line.empty() ? "" : line + " ") + std::string(markup.substr(begin, end - begin));
-    if (!line.empty() && width(longer, size, weight) > most) {
-      lines.push_back(line);
-      line = markup.substr(begin, end - begin);
-    } else {
-      line = longer;
-    }
-    begin = end + 1;
-  }
-  if (!line.empty()) lines.push_back(line);
-  return lines;
 }
 
 }  // namespace boltzmann

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Whether boltzmann/window/page.html is, byte for byte, what its source gives when it is built here; and whether its ticks
-# and the outlines of its spaces are those of pictures.
+# Whether boltzmann/window/page.html is, byte for byte, what its source gives when it is built here; and whether its ticks,
+# the outlines of its spaces and the layout of its figures are those of pictures.
 # Usage: page.sh BUILD_FOLDER
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
@@ -32,3 +32,10 @@ export { themes } from "../src/paint/theme";
 END
 node_modules/.bin/esbuild out/outline.ts --bundle --format=esm --log-level=error --outfile=out/outline.mjs
 node "$here/outline.mjs" out/outline.mjs "$here/../pictures/outlines.json"
+cat >out/layout.ts <<'END'
+export { View } from "../src/paint/view";
+export { Pen } from "../src/paint/text";
+export { css, themes } from "../src/paint/theme";
+END
+node_modules/.bin/esbuild out/layout.ts --bundle --format=esm --log-level=error --outfile=out/layout.mjs
+node "$here/layout.mjs" out/layout.mjs "$here/layouts.json"

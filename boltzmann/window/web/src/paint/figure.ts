@@ -1,5 +1,5 @@
 // What stands around a drawing: frame, ticks, titles, legend, colour bars and notes, laid out as
-// boltzmann/pictures/figure.cpp does. All lengths are device pixels.
+// boltzmann/pictures/figure_plan.cpp does; tests/window/layouts.json holds both to it. All lengths are device pixels.
 import type { Canvas, ColourBar } from "../protocol";
 import { Pen } from "./text";
 import { css, parse, shown, type Rgba, type Theme } from "./theme";
@@ -373,7 +373,7 @@ export class Figure {
     const { context } = this.pen;
     const wide = this.lineWidth(frameLine);
     const font = this.length(tickText);
-    const { left, top, right, bottom } = this.strokeBox(this.box, wide);
+    const { left, top, bottom } = this.strokeBox(this.box, wide);
     context.beginPath();
     for (const [ticks, across] of [
       [this.xTicks, true],
@@ -404,7 +404,7 @@ export class Figure {
     const xFont = this.fitted(this.xTitle, this.length(axisTitle), this.width - this.length(outerRoom));
     const half = this.pen.width(this.xTitle, xFont) / 2;
     const middle = Math.min(
-      Math.max((left + right) / 2, Math.min(half, this.width / 2)),
+      Math.max(this.box.left + this.box.width / 2, Math.min(half, this.width / 2)),
       Math.max(this.width - half, this.width / 2),
     );
     this.pen.draw(this.xTitle, middle, titleRow, xFont, 0.5);
@@ -420,7 +420,7 @@ export class Figure {
     this.pen.draw(
       this.yTitle,
       labelRight - this.labels - this.length(titleGap),
-      (top + bottom) / 2,
+      this.box.top + this.box.height / 2,
       yFont,
       0.5,
       false,
