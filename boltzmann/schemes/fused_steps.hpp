@@ -18,8 +18,9 @@ class FusedSteps {
   virtual ~FusedSteps() = default;
   /// Advances from `time` by a step. PhysicsFailure, naming the particle, if one is not finite, too fast, or has left.
   virtual void step(double time) = 0;
-  /// Puts the state of now (positions, and velocities at the same time) into the rows. Changes nothing else.
-  virtual void store() = 0;
+  /// Puts the state of now, the `time` at which the next step will begin (positions, and velocities at the same time),
+  /// into the rows, unless they have it.
+  virtual void store(double time) = 0;
 };
 
 }  // namespace boltzmann

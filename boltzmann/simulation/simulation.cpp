@@ -510,7 +510,7 @@ bool Simulation::take_step(int direction, FusedSteps* whole, bool last) {
   if (!changes_.empty()) adapt_now();
   if (!events_.empty()) happen_now();
   if (!observations_.empty()) {
-    if (whole && observation_due()) whole->store();
+    if (whole && observation_due()) whole->store(time());
     if (last && observation_due()) calculate(time());
     observe_now();
   }
@@ -522,7 +522,7 @@ bool Simulation::take_step(int direction, FusedSteps* whole, bool last) {
 /// All that others may look at is up to date, and everybody's.
 void Simulation::complete_last_step(FusedSteps* whole, bool last) {
   if (whole) {
-    whole->store();
+    whole->store(time());
     influences_.outdated();
   }
   bool const divided = is_divided();

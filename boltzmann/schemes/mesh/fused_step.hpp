@@ -124,19 +124,23 @@ template <int V, class Real>
 
 /// x as it is, rounded: of a sum of two products only the other one can then be fused with the addition, in every
 /// kernel alike. (Finishing a step and going on with it must give the same bits.)
-template <class Real, int W>
-[[gnu::always_inline]] inline Pack<Real, W> rounded(Pack<Real, W> x) {
+template <class Native>
+[[gnu::always_inline]] inline Native rounded_lanes(Native x) {
 #if __has_builtin(__builtin_assoc_barrier)
-  return __builtin_assoc_barrier(x.native);
+  return __builtin_assoc_barrier(x);
 #else
   return x;
 #endif
+}
+template <class Real, int W>
+[[gnu::always_inline]] inline Pack<Real, W> rounded(Pack<Real, W> x) {
+  return rounded_lanes(x.native);
 }
 
 enum class StepPass {
   deposit,  ///< only deposits
   advance,  ///< a step
-  finish,   ///< only the second kick that is pending; the field is kept for the next step
+  finish,   ///< the second kick of a step, all into the rows, and the first kick of the next step by the same field
 };
 
 template <StepPass pass, int D, int p, class Real, int W>
@@ -159,16 +163,18 @@ class FusedStep {
         locate(block, count);
         deposit(count);
       } else {
-        if (pass == StepPass::advance && task_.felt[0]) {
-          move(block, count, [&](std::size_t i, Number* e) { recall(block + i, e); });
+        if (pass == StepPass::advance && task_.kicked) {
+          move<true>(block, count);
         } else {
           locate(block, count);
           gather(count);
-          move(block, count, [&](std::size_t i, Number* e) { feel(i, e); });
+          move<false>(block, count);
         }
         if constexpr (pass == StepPass::advance) {
           locate(block, count);
           deposit(count);
+        } else {
+          write_rows(block, count, end);
         }
       }
     }
@@ -273,40 +279,35 @@ class FusedStep {
       for (int k = 1; k < p; ++k) e[a] += field[a * P + k] * along[k];
     }
   }
-  /// The same from the columns in which it has been kept.
-  [[gnu::always_inline]] void recall(std::size_t first, Number* e) const {
-    for (int a = 0; a < D; ++a) e[a] = *reinterpret_cast<SideBySide<Real, W> const*>(task_.felt[a] + first);
-  }
-
-  /// `field(i, e)` gives that at the W particles behind the i-th of the block.
-  template <class Field>
-  [[gnu::always_inline]] void move(std::size_t block, std::size_t count, Field const& field) {
+  template <bool kicked>
+  [[gnu::always_inline]] void move(std::size_t block, std::size_t count) {
     for (std::size_t i = 0; i < count; i += W) {
-      Number e[D], v[D], dv[D];
-      field(i, e);
-      for (int a = 0; a < D; ++a) {
-        if constexpr (pass == StepPass::finish)
-          *reinterpret_cast<SideBySide<Real, W>*>(task_.felt[a] + block + i) = e[a].native;
-        dv[a] = e[a] * Number(task_.kick) + Number(task_.push[a]);
-        v[a] = *reinterpret_cast<SideBySide<Real, W> const*>(task_.velocity[a] + block + i);
-      }
-      if (task_.pending) {
-        for (int a = 0; a < D; ++a) v[a] += dv[a];
-        if (task_.turns) turn(v);
-      }
+      Number v[D];
+      for (int a = 0; a < D; ++a) v[a] = *reinterpret_cast<SideBySide<Real, W> const*>(task_.velocity[a] + block + i);
+      if constexpr (!kicked) kick(i, v);
       if constexpr (pass == StepPass::advance) {
-        if (task_.turns) turn(v);
         Number square = Real(0);
-        for (int a = 0; a < D; ++a) {
-          v[a] += dv[a];
-          square += v[a] * v[a];
-        }
+        for (int a = 0; a < D; ++a) square += v[a] * v[a];
         Mask<Real, W> const failed = drift(block + i, v) | !(square <= Number(task_.fastest_allowed));
         failed_ = failed_ | (failed & particles(count - i));
         fastest_ = max(fastest_, select(particles(count - i), square, Number(Real(0))));
       }
       for (int a = 0; a < D; ++a) *reinterpret_cast<SideBySide<Real, W>*>(task_.velocity[a] + block + i) = v[a].native;
     }
+  }
+  /// The second kick of the last step if it is pending, and the first of the next one.
+  [[gnu::always_inline]] void kick(std::size_t i, Number* v) {
+    Number e[D], dv[D];
+    feel(i, e);
+    for (int a = 0; a < D; ++a) dv[a] = e[a] * Number(task_.kick) + Number(task_.push[a]);
+    if (task_.pending) {
+      for (int a = 0; a < D; ++a) v[a] += dv[a];
+      if (task_.turns) turn(v);
+    }
+    if constexpr (pass == StepPass::finish)
+      for (int a = 0; a < D; ++a) *reinterpret_cast<SideBySide<Real, W>*>(&now_[a][i]) = v[a].native;
+    if (task_.turns) turn(v);
+    for (int a = 0; a < D; ++a) v[a] += dv[a];
   }
 
   /// The lanes that hold particles, if so many are left.
@@ -363,6 +364,35 @@ class FusedStep {
     }
   }
 
+  /// The particles of a block as numbers of rows, while they are in the cache.
+  [[gnu::always_inline]] void write_rows(std::size_t block, std::size_t count, std::size_t end) {
+    constexpr std::size_t ahead = 32;  // rows stand in the user's order: each may be a miss
+    using Wide = SideBySide<double, W>;
+    for (int a = 0; a < D; ++a)
+      for (std::size_t i = 0; i < count; i += W)
+        *reinterpret_cast<Wide*>(&place_[a][i]) =
+            task_.low[a] + rounded_lanes<Wide>(exact(Whole::load(task_.position[a] + block + i)) * task_.part[a]);
+    std::uint32_t const* const order = task_.order;
+    std::size_t const stride = task_.stride, velocity = task_.row_velocity;
+    double* const rows_of_all = task_.rows;
+    for (std::size_t i = 0; i < count; ++i) {
+      std::size_t const later = block + i + ahead;
+      __builtin_prefetch(rows_of_all + stride * order[later < end ? later : end - 1], 1);
+      double* const row = rows_of_all + stride * order[block + i];
+      for (int a = 0; a < D; ++a) {
+        row[a] = place_[a][i];
+        row[velocity + static_cast<std::size_t>(a)] = static_cast<double>(now_[a][i]);
+      }
+    }
+  }
+  /// Integers of at least 0 and below 2^51.
+  [[gnu::always_inline]] static SideBySide<double, W> exact(typename Whole::Native x) {
+    if constexpr (std::is_same_v<Real, double>)
+      return Whole::number(x).native;
+    else
+      return __builtin_convertvector(x, SideBySide<double, W>);
+  }
+
   Task const task_;  // a copy: nothing that is stored through pointers can change it
   Number fastest_ = Number(Real(0));
   Mask<Real, W> failed_ = Number(Real(0)) != Number(Real(0));
@@ -370,6 +400,8 @@ class FusedStep {
   alignas(64) Real along_x_[step_block * P];
   alignas(64) Real across_[D == 1 ? 1 : D - 1][p][step_block];
   alignas(64) Real gathered_[step_block * V];
+  alignas(64) Real now_[pass == StepPass::finish ? D : 1][step_block];  // velocities, between two steps
+  alignas(64) double place_[pass == StepPass::finish ? D : 1][step_block];
 };
 
 template <StepPass pass, int D, int p, class Real, int W>

@@ -78,20 +78,19 @@ class MeshSteps final : public FusedSteps {
         accelerate(columns, time);
         run(columns, kernels_.advance);
         columns.task.pending = true;
-        for (auto& felt : columns.task.felt) felt = nullptr;
+        columns.task.kicked = false;
       } else {
         run(columns, kernels_.deposit);
       }
     }
-    now_ = time + dt_;
     sort_if_due();
     solve();
   }
 
-  void store() override {
+  void store(double time) override {
     for (auto& columns : columns_) {
-      if (!columns.moves) continue;
-      if (columns.task.pending) accelerate(columns, now_);  // the second kick of the last step is at its end
+      if (!columns.moves || !columns.task.pending) continue;  // else rows are as they should be
+      accelerate(columns, time);
       store(columns);
     }
   }
@@ -105,7 +104,6 @@ class MeshSteps final : public FusedSteps {
     std::size_t size;  // of this rank's share
     AlignedArray<Fixed> position[3], other_position[3];
     AlignedArray<Real> velocity[3], other_velocity[3];
-    AlignedArray<Real> felt[3];                     // of the field, from a look until the next step
     std::vector<std::uint32_t> order, other_order;  // the number of each particle
     StepTask<Real> task;
     double fastest = 0;    // square of a velocity in the last step
@@ -222,7 +220,10 @@ class MeshSteps final : public FusedSteps {
                          : boundary == Boundary::reflecting ? StepBoundary::reflects
                                                             : StepBoundary::ends;
       task.per_time[a] = static_cast<Real>(dt_ / part_[a]);
+      task.low[a] = scheme_.box().low(a);
+      task.part[a] = part_[a];
     }
+    task.row_velocity = static_cast<std::size_t>(columns.kind.velocity);
     task.bits = bits_;
     task.kick = static_cast<Real>(columns.strength / columns.mass * dt_ / 2);
     task.slots_x = slots_x_;
@@ -485,49 +486,21 @@ class MeshSteps final : public FusedSteps {
   }
 
   /// The second kick that is pending, and all into the rows. The next step begins with the same field at the same
-  /// places: what is felt there is kept.
+  /// places, at the same time, and so with the same kick, which is then given at once.
   void store(Columns& columns) {
     StepTask<Real>& task = columns.task;
     point_at_columns(columns);
-    if (task.pending)
-      for (int a = 0; a < dimension_; ++a) {
-        columns.felt[a].resize(columns.size + column_padding);
-        task.felt[a] = columns.felt[a].data();
-      }
+    task.rows = columns.ensemble->row(0);
+    task.order = columns.order.data();
+    task.stride = columns.ensemble->stride();
     for_ranges(columns.size, mesh_grain, threads_for(columns.size, 1, scheme_.threads()),
                [&](std::size_t begin, std::size_t end) {
                  StepResult ignored;
-                 if (task.pending) kernels_.finish(task, ignored, begin, end);
-                 if (dimension_ == 1)
-                   store_rows<1>(columns, begin, end);
-                 else
-                   dimension_ == 2 ? store_rows<2>(columns, begin, end) : store_rows<3>(columns, begin, end);
+                 kernels_.finish(task, ignored, begin, end);
                });
     task.pending = false;
+    task.kicked = true;
     clear_padding(columns);
-  }
-
-  template <int D>
-  void store_rows(Columns const& columns, std::size_t begin, std::size_t end) const {
-    constexpr std::size_t ahead = 32;  // rows stand in the user's order: each is a miss
-    std::size_t const stride = columns.ensemble->stride(), velocity = static_cast<std::size_t>(columns.kind.velocity);
-    double* const rows = columns.ensemble->row(0);
-    std::uint32_t const* const order = columns.order.data();
-    Fixed const* x[D];
-    Real const* v[D];
-    double low[D], part[D];
-    for (int a = 0; a < D; ++a) {
-      x[a] = columns.position[a].data(), v[a] = columns.velocity[a].data();
-      low[a] = scheme_.box().low(a), part[a] = part_[a];
-    }
-    for (std::size_t i = begin; i < end; ++i) {
-      __builtin_prefetch(rows + stride * order[std::min(i + ahead, end - 1)], 1);
-      double* const row = rows + stride * order[i];
-      for (int a = 0; a < D; ++a) {
-        row[a] = low[a] + static_cast<double>(x[a][i]) * part[a];
-        row[velocity + static_cast<std::size_t>(a)] = static_cast<double>(v[a][i]);
-      }
-    }
   }
 
   MeshScheme& scheme_;
@@ -541,7 +514,6 @@ class MeshSteps final : public FusedSteps {
   Fixed end_[3] = {};
   std::size_t slots_x_ = 0, slots_y_ = 0, slots_ = 0, width_ = 0, numbers_ = 0, copies_ = 1;
   double unit_ = 1;
-  double now_ = 0;
   AlignedArray<Real> field_;
   Tallies tallies_;
   std::vector<std::int64_t> counts_;

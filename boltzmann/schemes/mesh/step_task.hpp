@@ -40,14 +40,19 @@ struct StepTask {
   Real turn[9] = {};      ///< the rotation of the velocity in half a step
   bool turns = false;
   bool pending = false;      ///< velocities lack the second kick of the last step
+  bool kicked = false;       ///< velocities have the first kick of the next step: at a look the field is known
   Real fastest_allowed = 0;  ///< square of a velocity
-  Real* felt[3] = {};        ///< the field at each particle, as `finish` keeps it for the next step; null: to be found
 
   Real const* field = nullptr;  ///< slots of the field
   std::size_t slots_x = 0, slots_y = 0;
   std::int64_t* density = nullptr;  ///< slots of the density
   std::size_t copies = 1;           ///< of each slot of the density, a power of two
   Real charge = 0;                  ///< what a particle counts
+
+  double* rows = nullptr;                ///< of the ensemble, in the user's order
+  std::uint32_t const* order = nullptr;  ///< the row of each particle
+  std::size_t stride = 0, row_velocity = 0;
+  double low[3] = {}, part[3] = {};  ///< the low edge, and a part of a cell as a length
 };
 
 struct StepResult {
