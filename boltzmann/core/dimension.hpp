@@ -74,7 +74,6 @@ inline constexpr Dimension velocity = length / time;
 inline constexpr Dimension acceleration = velocity / time;
 inline constexpr Dimension circulation = area / time;
 inline constexpr Dimension diffusivity = circulation;
-inline constexpr Dimension kinematic_viscosity = circulation;
 inline constexpr Dimension wave_number = none / length;
 inline constexpr Dimension number_density = none / volume;
 

@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cmath>
-#include <concepts>
 #include <cstdint>
 #include <numbers>
 
@@ -106,12 +105,6 @@ class Stream {
 };
 
 // ---- Random variables: x(stream) draws, x.quantile(u) is the value below which the fraction u lies ----
-
-/// What loaders accept: anything that draws a number from a stream.
-template <class Variable>
-concept RandomVariable = requires(Variable const& x, Stream& stream) {
-  { x(stream) } -> std::convertible_to<double>;
-};
 
 /// Uniform in (low, high), or the number low if both are equal (section 2.2.1). Throws Error if low > high or either is
 /// not finite.

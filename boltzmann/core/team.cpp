@@ -211,11 +211,6 @@ void Team::exchange(std::span<std::size_t const> sent, std::span<std::size_t con
     if (received[r] > 0) read(r, received_[r].data());
 }
 
-void Team::barrier() {
-  std::array<std::int64_t, 1> nothing{};
-  sum(nothing);
-}
-
 Team::Outcome Team::vote(Ballot const& ballot, std::exception_ptr const& failed) {
   Outcome outcome;
   if (over_) {

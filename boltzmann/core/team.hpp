@@ -109,8 +109,6 @@ class Team {
   void exchange(std::span<std::size_t const> sent, std::span<std::size_t const> received,
                 std::function<void(std::size_t r, double* to)> const& write,
                 std::function<void(std::size_t r, double const* from)> const& read);
-  /// Comes back when all ranks have come here.
-  void barrier();
   /// What this rank has had to do with others.
   struct Counts {
     std::uint64_t collectives = 0;  ///< sums, minima, broadcasts, gathers and exchanges: one wait each

@@ -397,8 +397,5 @@ TEST(RandomVariables, WrongParametersAreOneReadableLine) {
   expect_one_line([] { Maxwellian(1, 1).quantile(2.0); }, "[0, 1]");
 }
 
-static_assert(RandomVariable<Uniform> && RandomVariable<Normal> && RandomVariable<Maxwellian> &&
-              RandomVariable<Exponential> && RandomVariable<Ripple> && !RandomVariable<double>);
-
 }  // namespace
 }  // namespace boltzmann::random_test

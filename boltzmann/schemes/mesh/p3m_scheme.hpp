@@ -53,8 +53,6 @@ class P3MScheme final : public MeshScheme {
 
  private:
   struct Near;
-  template <int D>
-  struct NearIn;
 
   void tune();
   void choose(P3mParameters const& parameters);
