@@ -147,8 +147,6 @@ void bind_results(py::module_& module) {
       .def("write_all", [](Stored& stored, std::string const& out, PictureWords const& words, double scale, bool dark) {
         stored.write_all(out, words, figure(1200, 900, scale, dark));
       });
-  module.def("holds_run", holds_run);
-  module.def("holds_sweep", holds_sweep);
   module.def("sweep", sweep);
 }
 

@@ -144,7 +144,6 @@ void bind_simulation(py::module_& module) {  // long: a table, a line for each n
       .def("name", [](Core& core) { return core.scenario().name; })
       .def("description", [](Core& core) { return core.scenario().description; })
       .def("resolved", [](Core& core) { return core.scenario().resolved; })
-      .def("diagnoses_every", [](Core& core) { return core.scenario().output.diagnoses; })
       .def("box", box_of)
       .def("ensembles",
            [](Core& core) {

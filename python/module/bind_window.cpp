@@ -27,7 +27,6 @@ class LiveWindow {
   }
 
   std::string address() const { return clients_.address(); }
-  int viewers() const { return clients_.viewers(); }
   void close() {
     closed_ = true;
     core_.stop();
@@ -57,7 +56,6 @@ void bind_window(py::module_& module) {
   py::class_<LiveWindow>(module, "LiveWindow")
       .def(py::init<Core&, std::uint16_t>(), py::keep_alive<1, 2>())
       .def("address", &LiveWindow::address)
-      .def("viewers", &LiveWindow::viewers)
       .def("close", &LiveWindow::close)
       .def("serve", &LiveWindow::serve);
   module.def("replay_page", [](std::string const& folder, std::vector<std::string> const& views, std::size_t frames,

@@ -38,7 +38,6 @@ void translate(std::exception_ptr thrown) {
 }  // namespace
 
 void bind_catalogue(py::module_& module) {
-  module.def("listed_kinds", listed_kinds);
   module.def("listed", [](std::string const& kind) {
     std::vector<std::pair<std::string, std::string>> all;
     for (auto const& one : listed(kind)) all.emplace_back(one.name, one.doc);

@@ -214,15 +214,6 @@ export class Painter {
     return { left: left / scale, top: top / scale, width: width / scale, height: height / scale };
   }
 
-  /** Where a place, in coordinates of the axes, is in the pane, in CSS pixels. */
-  locate(place: number[]): [number, number] | null {
-    const layout = this.view.layout();
-    if (!layout) return null;
-    const { look, height, scale, space } = layout;
-    const [x, y] = toPane(look.coordinates, height, space ? place : place.slice(0, 2));
-    return [x / scale, y / scale];
-  }
-
   dispose() {
     cancelAnimationFrame(this.request);
     clearTimeout(this.rest);
