@@ -1,6 +1,6 @@
-// What stands around a drawing, and where: frame, ticks, titles, legend, colour bars and notes. Nothing is drawn here, and
-// how wide letters are is asked of whoever draws. As web/src/paint/figure.ts has it; tests/window/layouts.json holds both
-// to it.
+// What stands around a drawing, and where: frame, ticks, titles, legend, colour bars and notes. Nothing is drawn here,
+// and how wide letters are is asked of whoever draws. As window/web/src/paint/figure.ts has it;
+// tests/window/layouts.json holds both to it.
 #pragma once
 
 #include <boltzmann/pictures/canvas.hpp>
