@@ -194,6 +194,14 @@ double volume_between(Box const& box, int axis, double low, double high) {
 
 }  // namespace
 
+MatterState matter_between(MassiveParticles const& bodies, Box const& box, int axis, double low, double high,
+                           double boltzmann_constant) {
+  MomentSums sum;
+  sum.add_volume(volume_between(box, axis, low, high));
+  sum.add(bodies.where([&](double const* x) { return x[axis] >= low && x[axis] < high; }), box.dimension());
+  return sum.matter(box.dimension(), boltzmann_constant);
+}
+
 ProfileSums::ProfileSums(int dimension, int axis, double low, double high, std::size_t count)
     : dimension_(dimension),
       axis_(axis),

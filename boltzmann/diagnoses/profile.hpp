@@ -112,6 +112,10 @@ struct Extent {
 };
 Extent extent(MassiveParticles const& bodies, Box const& box, int axis);
 
+/// What is between two places along an axis.
+MatterState matter_between(MassiveParticles const& bodies, Box const& box, int axis, double low, double high,
+                           double boltzmann_constant);
+
 /// Equal bins along an axis.
 struct Profile {
   int dimension, axis;

@@ -121,6 +121,19 @@ void random_load(AnyEnsemble& ensemble, Box const& box, RandomLoadOptions const&
   }
 }
 
+void random_field(AnyEnsemble& ensemble, std::string_view field, int component,
+                  std::function<double(Stream&)> const& variable, std::uint64_t seed) {
+  Field const& target = ensemble.field(field);
+  if (component < 0 || component >= target.components)
+    throw Error(fmt::format("random field: {} of '{}' has {} component{}, there is no component {}", field,
+                            ensemble.name(), target.components, target.components == 1 ? "" : "s", component));
+  std::uint64_t const key = ensemble_seed(seed, ensemble.name(), fmt::format("field {} {}", field, component));
+  for (std::size_t i = 0; i < ensemble.size(); ++i) {
+    Stream stream(key, 0, i, Purpose::position);
+    ensemble.row(i)[target.offset + component] = variable(stream);
+  }
+}
+
 void maxwellian_load(AnyEnsemble& ensemble, MaxwellianOptions const& options) {
   double const temperature = options.temperature, boltzmann_constant = options.boltzmann_constant;
   check_heat("Maxwellian load", options);

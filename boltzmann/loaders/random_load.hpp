@@ -37,6 +37,11 @@ double count_for_packing(Box const& box, double distance, double fraction);
 /// Error, with the limit, for a packing fraction that random addition can't reach.
 void check_packing(double fraction, int dimension);
 
+/// One component of a field drawn from any random variable: RandomLoad of section B.9.1, for example with Ripple on
+/// "position". Components count from 0. Error if there is no such field or component.
+void random_field(AnyEnsemble& ensemble, std::string_view field, int component,
+                  std::function<double(Stream&)> const& variable, std::uint64_t seed);
+
 struct MaxwellianOptions {
   double temperature = std::numeric_limits<double>::quiet_NaN();  ///< needed
   double boltzmann_constant = 1;

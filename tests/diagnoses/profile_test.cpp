@@ -73,10 +73,10 @@ TEST(Profile, ByHand) {
   EXPECT_EQ(p.values("internal-temperature")[1], 50);
 
   // The same as one window; of one ensemble; without measures.
-  EXPECT_EQ(profile(MassiveParticles(four.all, &four.measures), four.box, 0, 0, 2, 1, 0.5).matter[0].specific_energy,
+  EXPECT_EQ(matter_between(MassiveParticles(four.all, &four.measures), four.box, 0, 0, 2, 0.5).specific_energy,
             m.specific_energy);
-  EXPECT_EQ(profile(MassiveParticles(four.all, nullptr, {"atoms"}), four.box, 0, 0, 4, 1, 0.5).matter[0].mass, 2);
-  auto const blind = profile(MassiveParticles(four.all, nullptr), four.box, 0, 0, 2, 1, 0.5).matter[0];
+  EXPECT_EQ(matter_between(MassiveParticles(four.all, nullptr, {"atoms"}), four.box, 0, 0, 4, 0.5).mass, 2);
+  auto const blind = matter_between(MassiveParticles(four.all, nullptr), four.box, 0, 0, 2, 0.5);
   EXPECT_EQ(blind.kinetic_temperature, m.kinetic_temperature);
   EXPECT_TRUE(std::isnan(blind.pressure[0][0]) && std::isnan(blind.specific_energy));
   EXPECT_EQ(blind.internal_energy, m.internal_energy);
@@ -117,12 +117,12 @@ TEST(Profile, WhatCarriesNoMomentumDoesNotCount) {
     p.temperature = 40;
   }
   List const all{&vortices, &water};
-  auto const m = profile(MassiveParticles(all, nullptr), box, 0, 0, 1, 1, 1).matter[0];
+  auto const m = matter_between(MassiveParticles(all, nullptr), box, 0, 0, 1, 1);
   EXPECT_EQ(m.number, 2U);
   EXPECT_EQ(m.internal_energy, 2);  // per mass
   EXPECT_NEAR(m.internal_temperature, 40, 1e-13);
   List const none{&vortices};
-  EXPECT_EQ(profile(MassiveParticles(none, nullptr), box, 0, 0, 1, 1, 1).matter[0].number, 0U);
+  EXPECT_EQ(matter_between(MassiveParticles(none, nullptr), box, 0, 0, 1, 1).number, 0U);
 }
 
 TEST(Profile, FastGasHasItsTemperatureAndPressure) {

@@ -133,6 +133,7 @@ TEST(RandomLoads, RefuseWhatTheClassOrTheNumbersDontAllow) {
   EXPECT_THROW(random_load(atoms, box, {.minimum_distance = -0.1}), Error);
   atoms[2].mass = 0;
   EXPECT_THROW(maxwellian_load(atoms, {.temperature = 1}), Error);
+  EXPECT_THROW(random_field(atoms, "velocity", 2, Uniform(0, 1), 1), Error);
 }
 
 TEST(RandomLoads, GiveTheSameBitsForTheSameSeedWhateverTheNumberOfOthers) {
@@ -263,6 +264,15 @@ TEST(RandomLoad, IsUniformWhereItIsSaid) {
   } catch (Error const& error) {
     EXPECT_NE(std::string(error.what()).find("'where'"), std::string::npos) << error.what();
   }
+}
+
+TEST(RandomField, DrawsFromAnyVariable) {
+  Ensemble<Newton<1>> electrons("electrons", 20000);
+  Ripple const ripple(0, 2, 3 * pi, 0.4, 0.5, 1);
+  random_field(electrons, "position", 0, ripple, test_seed(9));
+  EXPECT_LT(kolmogorov_smirnov(electrons.column(electrons.field("position")),
+                               [&](double x) { return ripple.distribution(x); }),
+            kolmogorov_smirnov_limit);
 }
 
 TEST(Oscillating, DisplacementsHaveTheDistributionOfEq52) {
