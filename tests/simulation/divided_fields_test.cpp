@@ -2,6 +2,7 @@
 // vortices. All have the bits of one rank.
 #include "tests/simulation/divided_runs.hpp"
 
+#include <boltzmann/core/error.hpp>
 #include <boltzmann/laws/laplace.hpp>
 #include <boltzmann/laws/magnetic.hpp>
 #include <boltzmann/laws/soft.hpp>
@@ -25,6 +26,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <random>
 
@@ -50,6 +52,8 @@ struct PlasmaOptions {
   bool alike = true;  ///< else each electron has a mass of its own, and nothing goes by whole steps
   bool pairs = false;
   bool equal = false;  ///< numbers of both species
+  std::vector<std::size_t> cells = {};
+  PoissonForm form = PoissonForm::finite_difference;
 };
 
 /// Electrons in a magnetic field among ions, at random, on a mesh.
@@ -58,10 +62,10 @@ Ensemble<Coulomb<D>>& plasma(World& world, PlasmaOptions const& options) {
   auto& electrons = world.make<Ensemble<Coulomb<D>>>("electrons");
   auto& ions = world.make<Ensemble<Coulomb<D>>>("ions");
   Vector<D> low, high;
-  std::vector<std::size_t> cells;
+  std::vector<std::size_t> cells = options.cells;
   for (int a = 0; a < D; ++a) {
     low[a] = 0.1 * a, high[a] = 2 + 0.5 * a;
-    cells.push_back(12 + static_cast<std::size_t>(a));
+    if (options.cells.empty()) cells.push_back(12 + static_cast<std::size_t>(a));
   }
   auto& mesh = world.make<MeshScheme>(Box(low, high, options.boundary), cells, coulomb(0.5));
   std::mt19937_64 random(test_seed(7));
@@ -84,6 +88,7 @@ Ensemble<Coulomb<D>>& plasma(World& world, PlasmaOptions const& options) {
   mesh.background(!options.equal);
   mesh.assignment(D == 3 ? Assignment::tsc : Assignment::cic);
   mesh.precision(options.precision);
+  mesh.form(options.form);
   if (options.boundary != Boundary::periodic)
     for (int a = 0; a < D; ++a) mesh.boundary(a, options.ends);
   if constexpr (D > 1) {
@@ -180,6 +185,142 @@ TEST(DividedMesh, AWholeStepIsAVoteAndASum) {
     mesh.divide(nullptr);  // before the division is gone
   });
   for (auto const& failure : thrown) EXPECT_EQ(line_of(failure), "");
+}
+
+// ---- meshes that ranks solve together ----
+
+constexpr std::array both_forms{PoissonForm::finite_difference, PoissonForm::spectral};
+
+/// A mesh of unlike cells, and a density on it.
+struct Problem {
+  MeshGrid grid;
+  std::array<FieldEnds, 3> ends;
+  std::vector<double> density;
+
+  Problem(std::vector<std::size_t> const& cells, std::vector<FieldEnds> const& of_axes) {
+    grid.dimension = static_cast<int>(cells.size());
+    for (std::size_t a = 0; a < cells.size(); ++a) {
+      ends[a] = of_axes[a];
+      grid.periodic[a] = ends[a].low == FieldBoundary::periodic;
+      grid.nodes[a] = cells[a] + (grid.periodic[a] ? 0 : 1);
+      grid.spacing[a] = 0.2 + 0.1 * static_cast<double>(a);
+    }
+    std::mt19937_64 random(test_seed(23));
+    std::normal_distribution<double> normal;
+    density.resize(grid.size());
+    for (double& one : density) one = normal(random);
+  }
+
+  using Solution = std::vector<std::vector<double>>;  // the potential, if it is asked for, and the field
+  Solution solve(PoissonForm form, bool with_potential, SolvingRanks const* ranks = nullptr) const {
+    double const unset = std::numeric_limits<double>::quiet_NaN();
+    PoissonSolver solver(grid, ends, form, ranks && ranks->team->size() == 3 ? 2 : 1);
+    std::vector<double> potential(grid.size(), unset);
+    Solution solution(static_cast<std::size_t>(grid.dimension), potential);
+    solver.solve(density, 1.5, with_potential ? &potential : nullptr, solution, ranks);
+    if (with_potential) solution.push_back(potential);
+    return solution;
+  }
+  bool same(Solution const& one, Solution const& other, std::vector<char> const* read = nullptr) const {
+    std::size_t const planes = grid.nodes[static_cast<std::size_t>(grid.dimension) - 1], plane = grid.size() / planes;
+    bool all = one.size() == other.size();
+    for (std::size_t c = 0; all && c < one.size(); ++c)
+      for (std::size_t l = 0; l < planes; ++l)
+        if (!read || (*read)[l])
+          all = all && std::memcmp(&one[c][l * plane], &other[c][l * plane], plane * sizeof(double)) == 0;
+    return all;
+  }
+};
+
+TEST(DividedSolver, HasTheBitsOfOneRankForAllEnds) {
+  using enum FieldBoundary;
+  std::array const kinds{FieldEnds{periodic, periodic}, FieldEnds{dirichlet, dirichlet}, FieldEnds{neumann, neumann},
+                         FieldEnds{dirichlet, neumann}, FieldEnds{neumann, dirichlet},   FieldEnds{open, open}};
+  std::vector<Problem> problems;
+  for (std::size_t k = 0; k < kinds.size(); ++k)
+    for (std::size_t shift = 0; shift < kinds.size(); ++shift) {
+      FieldEnds const other = kinds[(k + shift) % kinds.size()];
+      problems.push_back({{37, 6}, {kinds[k], other}});  // fewer planes, and blocks of lines, than 8 ranks
+      problems.push_back({{9, 6, 7}, {kinds[k], kinds[(k + 2 * shift) % kinds.size()], other}});
+    }
+  for (auto const form : both_forms) {
+    std::vector<Problem::Solution> wanted;
+    for (auto const& problem : problems) wanted.push_back(problem.solve(form, true));
+    for (int const size : {2, 3, 5, 8})
+      for (auto const& failure : ThreadTeam(size).run([&](Team& team) {
+             for (std::size_t k = 0; k < problems.size(); ++k) {
+               SolvingRanks ranks{&team, {}};
+               auto const expect_same = [&](bool with_potential, std::vector<char> const* read = nullptr) {
+                 auto solution = problems[k].solve(form, with_potential, &ranks);
+                 if (!with_potential) solution.push_back(wanted[k].back());
+                 EXPECT_TRUE(problems[k].same(solution, wanted[k], read))
+                     << "problem " << k << ", " << size << " ranks";
+               };
+               if (k % 2 == 0 || size == 3) expect_same(true);
+               for (std::size_t r = 0; r < static_cast<std::size_t>(size); ++r)
+                 for (std::size_t l = 0; l < 8; ++l)
+                   ranks.reads.resize(r + 1), ranks.reads[r].push_back((l + r) % 3 == 0);
+               expect_same(false, &ranks.reads[static_cast<std::size_t>(team.rank())]);
+             }
+           }))
+        ASSERT_EQ(line_of(failure), "");
+  }
+}
+
+// What of a spectrum, a potential or a field is not of a rank's own goes from rank to rank: modes to those who have lines
+// and back, the potential to them, the field to all that read it.
+TEST(DividedSolver, SendsWhatOthersHaveToKnow) {
+  constexpr std::size_t n = 30, m = 8, columns = 2 * (n / 2 + 1), nodes = n * m * m;
+  FieldEnds const ends;
+  Problem const problem({n, m, m}, {ends, ends, ends});
+  for (std::size_t const size : {2U, 4U})
+    for (bool const all : {true, false}) {
+      std::vector<Team::Counts> counts(size);
+      auto const thrown = ThreadTeam(static_cast<int>(size)).run([&](Team& team) {
+        SolvingRanks ranks{&team, {}};
+        if (!all)  // each half of the planes
+          for (std::size_t r = 0; r < size; ++r) {
+            ranks.reads.emplace_back(m);
+            for (std::size_t l = 0; l < m; ++l) ranks.reads[r][l] = (l + r) % 2 == 0;
+          }
+        problem.solve(PoissonForm::spectral, false, &ranks);
+        counts[static_cast<std::size_t>(team.rank())] = team.counts();
+      });
+      for (auto const& failure : thrown) ASSERT_EQ(line_of(failure), "");
+      std::uint64_t bytes = 0;
+      for (auto const& one : counts) {
+        EXPECT_EQ(one.collectives, 4U * 2);  // each behind a vote
+        EXPECT_EQ(one.messages, 4 * (size - 1));
+        bytes += one.bytes;
+      }
+      std::uint64_t const turned = (2 * columns * m * m + nodes) * (size - 1) / size;
+      EXPECT_EQ(bytes, 8 * (turned + 3 * nodes * (size - 1) / (all ? 1 : 2))) << size << " ranks";
+    }
+}
+
+TEST(DividedSolver, HearsOfARankThatFails) {
+  FieldEnds const ends;
+  Problem const problem({20, 8, 8}, {ends, ends, ends});
+  for (auto const& failure : ThreadTeam(3).run([&](Team& team) {
+         SolvingRanks const ranks{&team, {}};
+         if (team.rank() == 1)
+           Team::check(team.vote({Team::Occasion::in_run}, std::make_exception_ptr(PhysicsFailure("it has boiled"))));
+         problem.solve(PoissonForm::spectral, true, &ranks);
+       }))
+    EXPECT_EQ(line_of(failure), "it has boiled");
+}
+
+TEST(DividedMesh, SolvedByAllRanksTogether) {
+  for (bool const alike : {true, false}) {
+    expect_same_plasma<2>({.alike = alike, .cells = {2400, 7}}, 12);
+    expect_same_plasma<3>({.boundary = Boundary::open, .alike = alike, .cells = {50, 40, 6}}, 7);
+    expect_same_plasma<3>({.boundary = Boundary::reflecting,
+                           .ends = FieldBoundary::dirichlet,
+                           .alike = alike,
+                           .cells = {24, 20, 33},
+                           .form = PoissonForm::spectral},
+                          7);
+  }
 }
 
 TEST(DividedMesh, GoesOnWithAnyNumberOfRanks) {
@@ -410,12 +551,12 @@ TEST(DividedMultipoles, ACalculationIsThreeVotesAndFourExchanges) {
 
 /// Charges of two kinds that are kept apart, by P3M.
 template <int D>
-void salt(World& world, bool background) {
+void salt(World& world, bool background, double accuracy = 1e-2) {
   auto& anions = world.make<Ensemble<Coulomb<D>>>("anions", 200);
   auto& cations = world.make<Ensemble<Coulomb<D>>>("cations", background ? 150 : 200);
   Vector<D> low, high;
   for (int a = 0; a < D; ++a) low[a] = 0, high[a] = D == 3 ? 4 + a : 10 + 2 * a;
-  auto& scheme = world.make<P3MScheme>(Box(low, high, Boundary::periodic), coulomb(1), 1e-2);
+  auto& scheme = world.make<P3MScheme>(Box(low, high, Boundary::periodic), coulomb(1), accuracy);
   std::mt19937_64 random(test_seed(13));
   std::uniform_real_distribution<double> uniform(0, 1);
   for (auto* ensemble : {&anions, &cations})
@@ -438,6 +579,13 @@ TEST(DividedP3m, InThreeDimensionsBesidePairs) {
 
 TEST(DividedP3m, InTwoDimensionsWithABackground) {
   expect_same_bits([](World& world) { salt<2>(world, true); }, 20, {2, 3});
+}
+
+// A mesh of so many nodes that ranks solve it together, each for the particles that it has.
+TEST(DividedP3m, OnAMeshThatIsDivided) {
+  auto const fine = [](World& world) { salt<3>(world, false, 1e-4); };
+  expect_same_bits(fine, 8, {2, 5});
+  expect_to_go_on(fine);
 }
 
 TEST(DividedP3m, GoesOnWithAnyNumberOfRanks) {

@@ -1,8 +1,19 @@
-// A mesh over the ranks of a team: each counts its own particles, sums of integers have no order, and all ranks solve the
-// whole mesh.
+// A mesh over the ranks of a team: each counts its own particles, sums of integers have no order, and each solves a part
+// of the mesh.
+#include <boltzmann/core/threads.hpp>
 #include <boltzmann/schemes/mesh/mesh_work.hpp>
 
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+
 namespace boltzmann {
+namespace {
+
+// A mesh of fewer nodes is solved sooner than ranks have told each other of their parts.
+constexpr std::size_t nodes_worth_dividing = 1U << 14U;
+
+}  // namespace
 
 std::string MeshScheme::undivided() const {
   return has_users_stage() ? "stages of a mesh that are the program's" : pairs_.undivided();
@@ -33,8 +44,40 @@ void MeshScheme::agree_on_strengths(Work& work) {
   work.per_strength = scale_of_counts();
 }
 
-/// deposit() in a divided run, for all ranks.
-void MeshScheme::deposit_share(Work& work) {
+/// Those that solve the mesh together; null: each solves all of it.
+SolvingRanks const* MeshScheme::solving_ranks(Work& work) const {
+  if (!division_ || work.grid.dimension == 1 || work.grid.size() < nodes_worth_dividing) return nullptr;
+  work.ranks = {&division_->team(), {}};
+  return &work.ranks;
+}
+
+/// Of the planes of nodes, those that this rank's particles meet, and some beside them.
+std::vector<char> MeshScheme::planes_read(Work const& work) const {
+  int const a = work.grid.dimension - 1;
+  std::size_t const ghosts = work.ghosts.nodes(a);
+  std::vector<std::atomic<char>> met(ghosts);
+  for (auto const& loaded : loaded_) {
+    AssignTask const task = task_for(work, *loaded);
+    auto const cells = static_cast<double>(task.cells[a]);
+    for_share(*loaded->ensemble, mesh_grain, threads_for(loaded->ensemble->share()->size, 1, threads()),
+              [&](std::size_t begin, std::size_t end) {
+                for (std::size_t i = begin; i < end; ++i) {
+                  double s = (task.rows[i * task.stride + a] - task.low[a]) * task.per_length[a];
+                  if (task.periodic[a] && !(s >= 0 && s < cells)) s -= cells * std::floor(s / cells);
+                  met[static_cast<std::size_t>(std::clamp(s, 0.0, cells))].store(1, std::memory_order_relaxed);
+                }
+              });
+  }
+  std::vector<char> read(work.grid.nodes[a]);
+  for (std::size_t g = 0; g < ghosts; ++g)
+    if (met[g])
+      for (std::size_t node = g > 0 ? g - 1 : 0; node <= std::min(g + order_ + 1, ghosts - 1); ++node)
+        read[work.ghosts.mesh_node(a, node)] = 1;
+  return read;
+}
+
+/// deposit() in a divided run, for all ranks: the solution is read by all, or each needs what its own particles feel.
+SolvingRanks const* MeshScheme::deposit_share(Work& work, Whose readers) {
   agree_on_strengths(work);
   auto const outside = count(work, work.per_strength, Whose::own);
   auto counts = work.tallies.sum();
@@ -44,9 +87,25 @@ void MeshScheme::deposit_share(Work& work) {
     division_->make_whole();
     refuse_outside(first);
   }
+  auto const* const ranks = solving_ranks(work);
+  // Behind the counts, for each rank, a bit for each plane.
+  std::size_t const planes = work.grid.nodes[work.grid.dimension - 1], words = (planes + 63) / 64;
+  if (ranks && readers == Whose::own) {
+    counts.resize(work.ghosts.size() + words * static_cast<std::size_t>(team.size()));
+    auto* const mine = counts.data() + work.ghosts.size() + words * static_cast<std::size_t>(team.rank());
+    auto const read = planes_read(work);
+    for (std::size_t l = 0; l < planes; ++l) mine[l / 64] |= std::int64_t{read[l]} << (l % 64);
+  }
   team.sum(counts);
+  for (auto bits = counts.begin() + static_cast<std::ptrdiff_t>(work.ghosts.size()); bits != counts.end();
+       bits += static_cast<std::ptrdiff_t>(words)) {
+    auto& read = work.ranks.reads.emplace_back(planes);
+    for (std::size_t l = 0; l < planes; ++l)
+      read[l] = static_cast<char>(bits[static_cast<std::ptrdiff_t>(l / 64)] >> (l % 64) & 1);
+  }
   work.ghosts.fold(counts, 1 / (work.per_strength * work.grid.cell_volume()), work.density.components[0], threads());
   add_background(work);
+  return ranks;
 }
 
 }  // namespace boltzmann

@@ -249,9 +249,9 @@ void MeshScheme::add_influences(double time) {
   if (!pairs_.ensembles().empty()) pairs_.add_influences(time);
   Work& work = this->work();
   measured_ = false;
-  division_ ? deposit_share(work) : deposit(work);
-  solve(work, false);
-  if (!interpolation_) pad(work.ghosts, work.field, false, work.padded, threads());
+  SolvingRanks const* const ranks = division_ ? deposit_share(work, Whose::own) : deposit(work);
+  solve(work, false, ranks);
+  if (!interpolation_) pad(work.ghosts, work.field, false, work.padded, threads(), ranks);
   std::vector<double> E;
   for (auto const& loaded : loaded_) {
     AnyEnsemble& ensemble = *loaded->ensemble;
@@ -284,8 +284,8 @@ void MeshScheme::add_influences(double time) {
 std::vector<MeshField const*> MeshScheme::mesh_fields() {
   Work& work = this->work();
   if (!measured_) {
-    division_ && division_->sums_suffice() ? deposit_share(work) : deposit(work);
-    solve(work, true);
+    bool const together = division_ && division_->sums_suffice();
+    solve(work, true, together ? deposit_share(work, Whose::everybody) : deposit(work));
   }
   return {&work.density, &work.potential, &work.field};
 }
@@ -298,8 +298,7 @@ EnergyAndVirial MeshScheme::measure(double time) {
   for (int a = 0; a < box().dimension(); ++a) measures.reciprocal = measures.reciprocal && box().periodic(a);
   if (has_users_stage()) measures.reciprocal = false;
   Work& work = this->work();
-  division_ ? deposit_share(work) : deposit(work);
-  solve(work, true);
+  solve(work, true, division_ ? deposit_share(work, Whose::everybody) : deposit(work));
   measured_ = division_ != nullptr;
   pad(work.ghosts, work.potential, true, work.padded, threads());
   // The pair scheme may supervise fewer ensembles, in another order.

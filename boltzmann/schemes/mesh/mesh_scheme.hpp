@@ -132,7 +132,7 @@ class MeshScheme : public Scheme {
   std::string undivided() const override;
   bool measures_sums() const override { return pairs_.measures_sums(); }
   bool shares_out() const override { return pairs_.shares_out(); }
-  /// Each rank counts its particles onto the mesh; the whole of it is then solved by all.
+  /// Each rank counts its particles onto the mesh; a small one is then solved by all, of a large one each does a part.
   void divide(Division* division) override;
   void bring_particles() override;
   EnergyAndVirial measure(double time = 0) override;
@@ -177,14 +177,16 @@ class MeshScheme : public Scheme {
   double scale_of_counts() const;
   std::int64_t count(Work& work, double per_strength, Whose whose) const;
   [[noreturn]] void refuse_outside(std::int64_t particle) const;
-  void deposit(Work& work);
-  void solve(Work& work, bool with_potential);
+  SolvingRanks const* deposit(Work& work);
+  void solve(Work& work, bool with_potential, SolvingRanks const* ranks);
   void gather(Work& work, Loaded const& loaded, bool potential, double* result, bool overwrite, Whose whose) const;
   bool plain() const;
   bool has_users_stage() const;
 
   // divided_mesh.cpp: over the ranks of a team.
-  void deposit_share(Work& work);
+  SolvingRanks const* deposit_share(Work& work, Whose readers);
+  SolvingRanks const* solving_ranks(Work& work) const;
+  std::vector<char> planes_read(Work const& work) const;
   void agree_on_strengths(Work& work);
 
   LaplaceLaw law_;

@@ -105,7 +105,8 @@ void MeshScheme::calculate_field(MeshField const& potential, MeshField& field) {
   work().solver.field(potential.components[0], field.components);
 }
 
-void MeshScheme::deposit(Work& work) {
+/// The density of all particles. What it gives is for solve(): here nobody, every rank solves what it solves alone.
+SolvingRanks const* MeshScheme::deposit(Work& work) {
   for (auto const& loaded : loaded_) loaded->refresh(threads());
   agreed_ = false;  // other ranks may not have come here
   work.total_strength = total_strength();
@@ -120,6 +121,7 @@ void MeshScheme::deposit(Work& work) {
     throw Error(fmt::format("mesh: the density has {} numbers, the mesh {} nodes", work.density.components[0].size(),
                             work.grid.size()));
   add_background(work);
+  return nullptr;
 }
 
 std::vector<double> MeshScheme::shares_inside(MeshGrid const& grid) const {
@@ -157,11 +159,11 @@ void MeshScheme::add_background(Work& work) const {
       }
 }
 
-void MeshScheme::solve(Work& work, bool with_potential) {
+void MeshScheme::solve(Work& work, bool with_potential, SolvingRanks const* ranks) {
   ++solves_;
   if (!potential_calculation_ && !influence_field_) {
     work.solver.solve(work.density.components[0], law_.constant,
-                      with_potential ? &work.potential.components[0] : nullptr, work.field.components);
+                      with_potential ? &work.potential.components[0] : nullptr, work.field.components, ranks);
     return;
   }
   auto const check = [&](MeshField const& result, std::size_t components) {

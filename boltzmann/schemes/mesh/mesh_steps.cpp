@@ -402,7 +402,8 @@ class MeshSteps final : public FusedSteps {
     std::size_t const nx = ghosts.nodes(0), rows = ghosts.nodes(1) * ghosts.nodes(2);
     ghosts.fold(counts_, unit_, work_.density.components[0], scheme_.threads());
     scheme_.add_background(work_);
-    work_.solver.solve(work_.density.components[0], scheme_.law_.constant, nullptr, work_.field.components);
+    work_.solver.solve(work_.density.components[0], scheme_.law_.constant, nullptr, work_.field.components,
+                       scheme_.solving_ranks(work_));
     int const order = ghosts.order();
     for_ranges(rows, row_grain(), scheme_.threads(), [&](std::size_t begin, std::size_t end) {
       std::vector<Real> line(nx);

@@ -1,4 +1,5 @@
 // Arrays on the nodes of a mesh, and how finely strengths are counted there.
+#include <boltzmann/core/team.hpp>
 #include <boltzmann/core/threads.hpp>
 #include <boltzmann/schemes/mesh/mesh_work.hpp>
 
@@ -54,8 +55,10 @@ std::size_t MeshScheme::Work::bytes() const {
 }
 
 void pad(Ghosts const& ghosts, MeshField const& field, bool potential, std::vector<std::vector<double>>& padded,
-         int threads) {
+         int threads, SolvingRanks const* ranks) {
   padded.resize(field.components.size());
+  char const* const read =
+      ranks && !ranks->reads.empty() ? ranks->reads[static_cast<std::size_t>(ranks->team->rank())].data() : nullptr;
   std::size_t const nx = ghosts.nodes(0), ny = ghosts.nodes(1), nz = ghosts.nodes(2);
   MeshGrid const& grid = field.grid;
   for (std::size_t c = 0; c < padded.size(); ++c) {
@@ -68,6 +71,7 @@ void pad(Ghosts const& ghosts, MeshField const& field, bool potential, std::vect
     for_ranges(ny * nz, std::max<std::size_t>(1, 32768 / nx), threads, [&](std::size_t begin, std::size_t end) {
       for (std::size_t row = begin; row < end; ++row) {
         std::size_t const j = row % ny, k = row / ny;
+        if (read && !read[grid.dimension == 2 ? ghosts.mesh_node(1, j) : ghosts.mesh_node(2, k)]) continue;
         double const sign = parity(1, j) * parity(2, k);
         double const* const mesh_row = from + grid.index(0, ghosts.mesh_node(1, j), ghosts.mesh_node(2, k));
         for (std::size_t i = 0; i < nx; ++i) to[row * nx + i] = sign * parity(0, i) * mesh_row[ghosts.mesh_node(0, i)];

@@ -34,6 +34,7 @@ struct MeshScheme::Work {
   double per_strength = 1;                  ///< counts, at the last deposit of a divided run
   std::vector<double> inside;               ///< the share of each node's cell that is in the box, when wanted
   std::vector<std::vector<double>> padded;  ///< the field (and the potential last) with ghosts, when wanted
+  SolvingRanks ranks;                       ///< of a divided run, at the last solution
 
   Work(Ghosts ghosts, MeshGrid const& grid, std::array<FieldEnds, 3> const& ends, PoissonForm form, int threads,
        GreensFunction const& green);
@@ -44,9 +45,9 @@ struct MeshScheme::Work {
 /// a power of two.
 double counts_per_strength(double greatest, std::size_t particles);
 
-/// The components of a field, or a potential, with what stands on ghosts.
+/// The components of a field, or a potential, with what stands on ghosts; if `ranks` are given, where this one reads them.
 void pad(Ghosts const& ghosts, MeshField const& field, bool potential, std::vector<std::vector<double>>& padded,
-         int threads);
+         int threads, SolvingRanks const* ranks = nullptr);
 
 /// Particles of one range of a loop.
 inline constexpr std::size_t mesh_grain = 1U << 14U;

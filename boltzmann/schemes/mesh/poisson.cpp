@@ -3,7 +3,7 @@
 #include <boltzmann/core/number.hpp>
 #include <boltzmann/core/threads.hpp>
 #include <boltzmann/schemes/mesh/open_kernel.hpp>
-#include <boltzmann/schemes/mesh/poisson_lines.hpp>
+#include <boltzmann/schemes/mesh/poisson_ranks.hpp>
 
 #include <fmt/format.h>
 
@@ -156,12 +156,12 @@ struct PoissonSolver::Plans {
 
   std::size_t grain(std::size_t items) const { return 1 + items / (4 * static_cast<std::size_t>(threads)); }
 
-  /// function(item, scratch) for all items, by all threads.
+  /// function(item, scratch) for all items of a range, by all threads.
   template <class Function>
-  void for_items(std::size_t items, Function const& function) const {
-    for_ranges(items, grain(items), threads, [&](std::size_t begin, std::size_t end) {
+  void for_items(Range const& items, Function const& function) const {
+    for_ranges(items.size(), grain(items.size()), threads, [&](std::size_t begin, std::size_t end) {
       Scratch scratch(shape.scratch, row_scratch(shape, form));
-      for (std::size_t i = begin; i < end; ++i) function(i, scratch);
+      for (std::size_t i = begin; i < end; ++i) function(items.begin + i, scratch);
     });
   }
 
@@ -233,13 +233,26 @@ struct PoissonSolver::Plans {
     });
   }
 
+  Planes modes(FourierArray& array) const {
+    return {array.data(), shape.axis[2].nodes, shape.axis[1].modes, shape.columns, shape.row, shape.plane};
+  }
+  /// On the nodes, where modes were.
+  Planes potential_of(FourierArray& array) const {
+    return {array.data(), shape.axis[2].nodes, shape.axis[1].nodes, shape.axis[0].nodes, shape.row, shape.plane};
+  }
+  /// As a caller has them.
+  Planes on_nodes(double* values) const {
+    std::size_t const nx = shape.axis[0].nodes, ny = shape.axis[1].nodes;
+    return {values, shape.axis[2].nodes, ny, nx, nx, nx * ny};
+  }
+  Range samples() const { return {shape.axis[2].first, shape.axis[2].first + shape.axis[2].samples}; }
+
   /// Density to modes along x and the middle axis.
-  void forward(double const* density) {
-    Axis const &ax = shape.axis[0], &amid = shape.axis[1], &alast = shape.axis[2];
-    for_items(alast.samples, [&](std::size_t l, Scratch& scratch) {
+  void forward(double const* density, Range const& planes) {
+    Axis const &ax = shape.axis[0], &amid = shape.axis[1];
+    for_items(planes.within(samples()), [&](std::size_t node, Scratch& scratch) {
       double* const a = scratch.a.data();
       double* const b = scratch.b.data();
-      std::size_t const node = l + alast.first;
       double* const plane = spectrum.data() + node * shape.plane;
       for (std::size_t s = 0; s < amid.samples; ++s) {
         std::copy_n(density + (node * amid.nodes + s + amid.first) * ax.nodes + ax.first, ax.samples, a);
@@ -257,10 +270,10 @@ struct PoissonSolver::Plans {
   }
 
   /// Along the last axis to modes, times Green's function (or a table of slopes), and back.
-  void multiply(double amplitude, std::vector<double> const& factors, bool slope, double* to) {
+  void multiply(double amplitude, std::vector<double> const& factors, bool slope, double* to, Range const& lines) {
     Axis const &amid = shape.axis[1], &alast = shape.axis[2];
-    std::size_t const blocks = (shape.columns + block_width - 1) / block_width;
-    for_items(amid.modes * blocks, [&](std::size_t item, Scratch& scratch) {
+    std::size_t const blocks = modes(spectrum).blocks_of_row();
+    for_items(lines, [&](std::size_t item, Scratch& scratch) {
       double* const a = scratch.a.data();
       double* const b = scratch.b.data();
       std::size_t const m = item / blocks, c = item % blocks * block_width;
@@ -315,9 +328,9 @@ struct PoissonSolver::Plans {
 
   /// Modes along x and the middle axis back to nodes, in place; copied to `values` if given, and the slope along x to
   /// `x_slope`. If `slope_slot` is 0 or 1, the slope along that axis is taken on the way.
-  void backward(double* modes, int slope_slot, double* values, double* x_slope) {
+  void backward(double* modes, int slope_slot, double* values, double* x_slope, Range const& planes) {
     Axis const &ax = shape.axis[0], &amid = shape.axis[1], &alast = shape.axis[2];
-    for_items(alast.nodes, [&](std::size_t node, Scratch& scratch) {
+    for_items(planes, [&](std::size_t node, Scratch& scratch) {
       double* const a = scratch.a.data();
       double* const b = scratch.b.data();
       double* const plane = modes + node * shape.plane;
@@ -388,11 +401,11 @@ struct PoissonSolver::Plans {
     }
   }
 
-  /// The slope along one axis, line by line.
-  void slope_along(int slot, View const& phi, double* field) const {
-    Axis const &ax = shape.axis[0], &amid = shape.axis[1], &alast = shape.axis[2];
+  /// The slope along one axis, line by line: along the last one of these blocks of lines, else in these planes.
+  void slope_along(int slot, View const& phi, double* field, Range const& part) const {
+    Axis const &ax = shape.axis[0], &amid = shape.axis[1];
     if (slot == 0) {
-      for_items(amid.nodes * alast.nodes, [&](std::size_t item, Scratch& scratch) {
+      for_items({part.begin * amid.nodes, part.end * amid.nodes}, [&](std::size_t item, Scratch& scratch) {
         std::size_t const l = item / amid.nodes, j = item % amid.nodes;
         std::copy_n(phi.data + l * phi.plane + j * phi.row + ax.first, ax.samples, scratch.a.data());
         x.forward(scratch.a.data(), scratch.b.data());
@@ -402,12 +415,12 @@ struct PoissonSolver::Plans {
       return;
     }
     Axis const& axis = shape.axis[slot];
-    std::size_t const lines = slot == 1 ? alast.nodes : amid.nodes;  // of blocks
-    std::size_t const blocks = (ax.nodes + block_width - 1) / block_width;
+    std::size_t const blocks = on_nodes(field).blocks_of_row();
     std::size_t const from_stride = slot == 1 ? phi.row : phi.plane, from_line = slot == 1 ? phi.plane : phi.row;
     std::size_t const to_stride = slot == 1 ? ax.nodes : ax.nodes * amid.nodes;
     std::size_t const to_line = slot == 1 ? ax.nodes * amid.nodes : ax.nodes;
-    for_items(lines * blocks, [&](std::size_t item, Scratch& scratch) {
+    Range const items = slot == 1 ? Range{part.begin * blocks, part.end * blocks} : part;
+    for_items(items, [&](std::size_t item, Scratch& scratch) {
       std::size_t const line = item / blocks, c = item % blocks * block_width;
       std::size_t const columns = std::min(block_width, ax.nodes - c);
       load(phi.data + line * from_line + axis.first * from_stride + c, from_stride, axis.samples, columns,
@@ -419,13 +432,17 @@ struct PoissonSolver::Plans {
   }
 
   void solve(std::vector<double> const& density, double constant, std::vector<double>* potential,
-             std::vector<std::vector<double>>* field) {
+             std::vector<std::vector<double>>* field, SolvingRanks const* all) {
     check(density, "density");
     if (potential) potential->resize(grid.size());
     if (field) resize(*field);
+    Ranks const ranks(all);
+    std::vector<Ranks::Result> results;
     double const amplitude = constant * scale;
     bool const spectral = form == PoissonForm::spectral;
-    forward(density.data());
+    Range const planes = ranks.own(shape.axis[2].nodes), lines = ranks.own(modes(spectrum).blocks());
+    forward(density.data(), planes);
+    ranks.to_lines(modes(spectrum), samples());
 
     bool slopes_missing = false;  // those that are taken from the potential
     if (field)
@@ -435,22 +452,40 @@ struct PoissonSolver::Plans {
           slopes_missing = true;
           continue;
         }
-        multiply(amplitude, slope_table[slot], slot == 2, second.data());
-        backward(second.data(), slot, (*field)[a].data(), nullptr);
+        multiply(amplitude, slope_table[slot], slot == 2, second.data(), lines);
+        ranks.to_planes(modes(second), samples());
+        backward(second.data(), slot, (*field)[a].data(), nullptr, planes);
+        results.push_back({on_nodes((*field)[a].data())});
       }
-    if (!potential && !slopes_missing) return;
+    if (potential || slopes_missing) {
+      multiply(amplitude, table, false, spectrum.data(), lines);
+      ranks.to_planes(modes(spectrum), samples());
+      bool const rows_too = field && spectral && shape.axis[0].kind != Kind::open;
+      backward(spectrum.data(), -1, potential ? potential->data() : nullptr, rows_too ? (*field)[0].data() : nullptr,
+               planes);
+      if (potential) results.push_back({on_nodes(potential->data())});
+      if (rows_too) results.push_back({on_nodes((*field)[0].data())});
+      if (slopes_missing) slopes(ranks, *field, rows_too ? 1 : 0, results);
+    }
+    ranks.share(results);
+  }
 
-    multiply(amplitude, table, false, spectrum.data());
-    bool const rows_too = field && spectral && shape.axis[0].kind != Kind::open;
-    backward(spectrum.data(), -1, potential ? potential->data() : nullptr, rows_too ? (*field)[0].data() : nullptr);
-    if (!field) return;
-    View const phi{spectrum.data(), shape.row, shape.plane};
-    for (int a = rows_too ? 1 : 0; a < shape.dimension; ++a) {
+  /// Of the potential in `spectrum`, along the axes from `first` on.
+  void slopes(Ranks const& ranks, std::vector<std::vector<double>>& field, int first,
+              std::vector<Ranks::Result>& results) {
+    Planes const all = potential_of(spectrum);
+    View const phi{all.data, all.row, all.plane};
+    if (form == PoissonForm::finite_difference) {  // cheaper than to tell of them
+      ranks.share({{all}}, true);
+      for (int a = first; a < shape.dimension; ++a) differences(shape.slot_of[a], phi, field[a].data());
+      return;
+    }
+    for (int a = first; a < shape.dimension; ++a) {
       int const slot = shape.slot_of[a];
-      if (!spectral)
-        differences(slot, phi, (*field)[a].data());
-      else if (shape.axis[slot].kind != Kind::open)
-        slope_along(slot, phi, (*field)[a].data());
+      if (shape.axis[slot].kind == Kind::open) continue;
+      if (slot == 2) ranks.to_lines(all, samples());
+      slope_along(slot, phi, field[a].data(), ranks.own(slot == 2 ? all.blocks() : all.count));
+      results.push_back({on_nodes(field[a].data()), slot == 2});
     }
   }
 
@@ -464,7 +499,7 @@ struct PoissonSolver::Plans {
       if (form == PoissonForm::finite_difference || shape.axis[slot].kind == Kind::open)
         differences(slot, phi, field[a].data());
       else
-        slope_along(slot, phi, field[a].data());
+        slope_along(slot, phi, field[a].data(), {0, slot == 2 ? on_nodes(nullptr).blocks() : shape.axis[2].nodes});
     }
   }
 
@@ -485,7 +520,7 @@ PoissonSolver::PoissonSolver(MeshGrid const& grid, std::array<FieldEnds, 3> cons
 PoissonSolver::~PoissonSolver() = default;
 
 void PoissonSolver::potential(std::vector<double> const& density, double constant, std::vector<double>& potential) {
-  plans_->solve(density, constant, &potential, nullptr);
+  plans_->solve(density, constant, &potential, nullptr, nullptr);
 }
 
 void PoissonSolver::field(std::vector<double> const& potential, std::vector<std::vector<double>>& field) {
@@ -493,8 +528,8 @@ void PoissonSolver::field(std::vector<double> const& potential, std::vector<std:
 }
 
 void PoissonSolver::solve(std::vector<double> const& density, double constant, std::vector<double>* potential,
-                          std::vector<std::vector<double>>& field) {
-  plans_->solve(density, constant, potential, &field);
+                          std::vector<std::vector<double>>& field, SolvingRanks const* ranks) {
+  plans_->solve(density, constant, potential, &field, ranks);
 }
 
 Words<FieldBoundary> const& field_boundary_words() {

@@ -13,6 +13,8 @@
 
 namespace boltzmann {
 
+class Team;
+
 /// What the potential does at an end of an axis.
 enum class FieldBoundary {
   periodic,   ///< (both ends)
@@ -43,6 +45,14 @@ struct FieldEnds {
 /// dimension): for periodic boxes only. It must be even, G(-k) = G(k). Not asked at k = 0.
 using GreensFunction = std::function<double(std::array<double, 3> const& k)>;
 
+/// Ranks of a team that solve together.
+struct SolvingRanks {
+  Team* team = nullptr;
+  /// For each rank, of each plane (all nodes with one place along the last axis), whether it reads the solution there;
+  /// empty: everybody reads all of it.
+  std::vector<std::vector<char>> reads;
+};
+
 /// Solves laplacian phi = -constant rho, E = -grad phi on the nodes of a mesh. Densities and potentials are arrays of
 /// grid.size() numbers, x fastest; a field is one such array for each axis. Along each axis:
 /// - periodic: modes exp(i k x). The slope of the Nyquist mode of an even number of cells is zero.
@@ -55,7 +65,7 @@ using GreensFunction = std::function<double(std::array<double, 3> const& k)>;
 ///   The field in spectral form is the convolution with the kernel's slope; in finite differences it is a central
 ///   difference, one-sided of second order at the edges.
 /// Where all axes are periodic or Neumann, the mean of the density (k = 0) is dropped and the mean potential is zero.
-/// Results have the same bits for any number of threads. One solver serves one caller at a time.
+/// Results have the same bits for any number of threads and ranks. One solver serves one caller at a time.
 class PoissonSolver {
  public:
   /// Error if: an end is periodic or open and the other end of the axis is not; a periodic axis of the mesh is not
@@ -72,9 +82,11 @@ class PoissonSolver {
   /// E = -grad phi, one array for each axis. Along open axes always by differences: a potential alone says nothing
   /// about the outside. Error if `potential` has not grid.size() numbers.
   void field(std::vector<double> const& potential, std::vector<std::vector<double>>& field);
-  /// Both, without a way back in between; `potential` may be null. Error as in potential().
+  /// Both, without a way back in between; `potential` may be null. Error as in potential(). With `ranks` for all of them,
+  /// of the same density and in two or three dimensions: each does a part, and tells the others what they read. At
+  /// planes that it does not read a rank finds anything.
   void solve(std::vector<double> const& density, double constant, std::vector<double>* potential,
-             std::vector<std::vector<double>>& field);
+             std::vector<std::vector<double>>& field, SolvingRanks const* ranks = nullptr);
 
   /// For the solutions to come.
   void threads(int count);
