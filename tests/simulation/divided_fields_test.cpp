@@ -318,6 +318,44 @@ TEST(DividedMesh, SolvedByAllRanksTogether) {
       {.boundary = Boundary::reflecting, .ends = FieldBoundary::dirichlet, .alike = false, .cells = {24, 20, 33}}, 2);
 }
 
+// Two ranks with half of the box each: of counts and of the field go what is in three planes beside it (of the component
+// that is found line by line, half of all that is read).
+TEST(DividedMesh, RanksHearOfTheFieldAtTheirParticles) {
+  constexpr std::size_t nx = 32, ny = 16, nz = 32, columns = nx + 2, beside = 3;
+  std::array<std::uint64_t, 2> bytes{};
+  auto const thrown = ThreadTeam(2).run([&](Team& team) {
+    World world;
+    auto& charges = world.make<Ensemble<Coulomb<3>>>("charges", nz * 10);
+    for (std::size_t i = 0; i < charges.size(); ++i) {
+      charges[i].position = {0.5, 0.5, (static_cast<double>(i / 10) + 0.3) / nz};
+      charges[i].charge = i % 2 == 0 ? 1 : -1;
+      charges[i].mass = 1;
+    }
+    auto& mesh = world.make<MeshScheme>(Box(Vector{0., 0., 0.}, Vector{1., 1., 1.}, Boundary::periodic),
+                                        std::vector<std::size_t>{nx, ny, nz}, coulomb(1));
+    mesh.form(PoissonForm::spectral);
+    mesh.add(charges);
+    Division division(team);
+    division.add(charges);
+    division.begin();
+    mesh.divide(&division);
+    mesh.calculate();  // which agrees on strengths
+    auto const before = team.counts();
+    mesh.calculate();
+    auto const after = team.counts();
+    EXPECT_EQ(after.collectives - before.collectives, 3U + 5 * 2);  // two votes, who reads what; exchanges behind votes
+    EXPECT_EQ(after.numbers - before.numbers, 7U * 16 + 2);
+    EXPECT_EQ(after.messages - before.messages, 5U);
+    bytes[static_cast<std::size_t>(team.rank())] = after.bytes - before.bytes;
+    mesh.divide(nullptr);
+  });
+  for (auto const& failure : thrown) ASSERT_EQ(line_of(failure), "");
+  std::size_t const turned = (2 * columns + nx) * ny * nz / 4;
+  std::size_t const found = beside * (nx + 2) * (ny + 2) + 2 * beside * nx * ny + (nz / 2 + beside) * nx * ny / 2;
+  EXPECT_EQ(bytes[0], 8 * (turned + found));
+  EXPECT_EQ(bytes[1], bytes[0]);
+}
+
 TEST(DividedMesh, GoesOnWithAnyNumberOfRanks) {
   expect_to_go_on(scenario("two-stream"));
   expect_to_go_on([](World& world) { plasma<2>(world, {.precision = Precision::single}); });

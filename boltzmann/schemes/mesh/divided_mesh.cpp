@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <atomic>
+#include <bit>
 #include <cmath>
+#include <cstring>
 
 namespace boltzmann {
 namespace {
@@ -76,11 +78,59 @@ std::vector<char> MeshScheme::planes_read(Work const& work) const {
   return read;
 }
 
+/// Tells all ranks which planes each of them reads.
+void MeshScheme::learn_readers(Work& work) const {
+  auto const mine = planes_read(work);
+  Team& team = *work.ranks.team;
+  auto const ranks = static_cast<std::size_t>(team.size()), words = (mine.size() + 63) / 64;
+  std::vector<std::int64_t> bits(ranks * words);  // only this rank's are set here
+  for (std::size_t l = 0; l < mine.size(); ++l)
+    bits[static_cast<std::size_t>(team.rank()) * words + l / 64] |= std::int64_t{mine[l]} << l % 64;
+  team.sum(bits);
+  work.ranks.reads.assign(ranks, std::vector<char>(mine.size()));
+  for (std::size_t r = 0; r < ranks; ++r)
+    for (std::size_t l = 0; l < mine.size(); ++l)
+      work.ranks.reads[r][l] = static_cast<char>(bits[r * words + l / 64] >> l % 64 & 1);
+}
+
+/// What each rank has counted in the planes that it reads goes to those who solve for them.
+void MeshScheme::sum_in_planes(Work& work, std::int64_t* counts) const {
+  Team& team = *work.ranks.team;
+  auto const rank = static_cast<std::size_t>(team.rank()), ranks = static_cast<std::size_t>(team.size());
+  std::size_t const plane = work.ghosts.plane();
+  int const a = work.grid.dimension - 1;
+  auto const for_planes = [&](std::size_t from, std::size_t to, auto const& function) {
+    auto const [begin, end] = work.ranks.part(to, work.grid.nodes[a]);
+    for (std::size_t l = begin; l < end; ++l)
+      if (work.ranks.reads[from][l]) function(counts + work.ghosts.place(a, l) * plane);
+  };
+  std::vector<std::size_t> sent(ranks), received(ranks);
+  for (std::size_t r = 0; r < ranks; ++r)
+    if (r != rank) {
+      for_planes(rank, r, [&](std::int64_t*) { sent[r] += plane; });
+      for_planes(r, rank, [&](std::int64_t*) { received[r] += plane; });
+    }
+  team.meet(Team::Occasion::exchanges);
+  team.exchange(
+      sent, received,
+      [&](std::size_t r, double* to) {
+        for_planes(rank, r, [&](std::int64_t const* at) {
+          std::memcpy(to, at, plane * sizeof *at);
+          to += plane;
+        });
+      },
+      [&](std::size_t r, double const* from) {
+        for_planes(r, rank, [&](std::int64_t* at) {
+          for (std::size_t i = 0; i < plane; ++i, ++from) at[i] += std::bit_cast<std::int64_t>(*from);
+        });
+      });
+}
+
 /// deposit() in a divided run, for all ranks: the solution is read by all, or each needs what its own particles feel.
 SolvingRanks const* MeshScheme::deposit_share(Work& work, Whose readers) {
   agree_on_strengths(work);
   auto const outside = count(work, work.per_strength, Whose::own);
-  auto counts = work.tallies.sum();
+  std::int64_t* const counts = work.tallies.sum();
   Team& team = division_->team();
   auto const first = ~team.meet(Team::Occasion::exchanges, {~outside}).most[0];
   if (first != no_particle) {
@@ -88,22 +138,19 @@ SolvingRanks const* MeshScheme::deposit_share(Work& work, Whose readers) {
     refuse_outside(first);
   }
   auto const* const ranks = solving_ranks(work);
-  // Behind the counts, for each rank, a bit for each plane.
-  std::size_t const planes = work.grid.nodes[work.grid.dimension - 1], words = (planes + 63) / 64;
+  double const unit = 1 / (work.per_strength * work.grid.cell_volume());
+  auto& density = work.density.components[0];
   if (ranks && readers == Whose::own) {
-    counts.resize(work.ghosts.size() + words * static_cast<std::size_t>(team.size()));
-    auto* const mine = counts.data() + work.ghosts.size() + words * static_cast<std::size_t>(team.rank());
-    auto const read = planes_read(work);
-    for (std::size_t l = 0; l < planes; ++l) mine[l / 64] |= std::int64_t{read[l]} << (l % 64);
+    learn_readers(work);
+    work.ghosts.fold_planes(counts);
+    sum_in_planes(work, counts);
+    auto const [begin, end] =
+        ranks->part(static_cast<std::size_t>(team.rank()), work.grid.nodes[work.grid.dimension - 1]);
+    work.ghosts.fold_in_planes(counts, unit, density, threads(), begin, end);
+  } else {
+    team.sum({counts, work.ghosts.size()});
+    work.ghosts.fold(counts, unit, density, threads());
   }
-  team.sum(counts);
-  for (auto bits = counts.begin() + static_cast<std::ptrdiff_t>(work.ghosts.size()); bits != counts.end();
-       bits += static_cast<std::ptrdiff_t>(words)) {
-    auto& read = work.ranks.reads.emplace_back(planes);
-    for (std::size_t l = 0; l < planes; ++l)
-      read[l] = static_cast<char>(bits[static_cast<std::ptrdiff_t>(l / 64)] >> (l % 64) & 1);
-  }
-  work.ghosts.fold(counts, 1 / (work.per_strength * work.grid.cell_volume()), work.density.components[0], threads());
   add_background(work);
   return ranks;
 }

@@ -35,11 +35,28 @@ class Ghosts {
     return is_image_[axis][g] && c == axis ? -parity_[axis][g] : parity_[axis][g];
   }
 
+  /// Where node j of the mesh stands among those of an axis.
+  std::size_t place(int axis, std::size_t j) const {
+    return j + (has_ghosts(axis) ? static_cast<std::size_t>(before_) : 0);
+  }
+  /// Nodes with one place along the last axis.
+  std::size_t plane() const { return dimension_ == 3 ? nodes(0) * nodes(1) : dimension_ == 2 ? nodes(0) : 1; }
+
   /// Adds what stands on ghosts to the nodes that they stand for, in place, and gives the counts on the mesh times
   /// `unit`. (The sums are of integers.) At a plane of symmetry the images of particles count as well.
-  void fold(std::vector<std::int64_t>& counts, double unit, std::vector<double>& density, int threads) const;
+  void fold(std::int64_t* counts, double unit, std::vector<double>& density, int threads) const;
+  /// The same in two steps: planes beyond the ends of the last axis; then what stands in planes [first, last) of the mesh.
+  void fold_planes(std::int64_t* counts) const;
+  void fold_in_planes(std::int64_t* counts, double unit, std::vector<double>& density, int threads, std::size_t first,
+                      std::size_t last) const;
 
  private:
+  bool has_ghosts(int axis) const { return axis < dimension_ && ends_[axis].low != FieldBoundary::open; }
+  /// Whether a node is one of the mesh itself.
+  bool own(int axis, std::size_t g) const {
+    return !has_ghosts(axis) || (g >= place(axis, 0) && g < place(axis, mesh_nodes_[axis]));
+  }
+
   int dimension_, order_, before_;
   std::array<std::size_t, 3> cells_, mesh_nodes_;
   std::array<std::vector<std::uint32_t>, 3> to_;

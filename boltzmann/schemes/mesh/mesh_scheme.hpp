@@ -187,6 +187,8 @@ class MeshScheme : public Scheme {
   SolvingRanks const* deposit_share(Work& work, Whose readers);
   SolvingRanks const* solving_ranks(Work& work) const;
   std::vector<char> planes_read(Work const& work) const;
+  void learn_readers(Work& work) const;
+  void sum_in_planes(Work& work, std::int64_t* counts) const;
   void agree_on_strengths(Work& work);
 
   LaplaceLaw law_;

@@ -93,8 +93,7 @@ void MeshScheme::assign_density(MeshField& density) {
   Work& work = this->work();
   double const per_strength = scale_of_counts();
   if (auto const outside = count(work, per_strength, Whose::everybody); outside != no_particle) refuse_outside(outside);
-  auto counts = work.tallies.sum();
-  work.ghosts.fold(counts, 1 / (per_strength * work.grid.cell_volume()), density.components[0], threads());
+  work.ghosts.fold(work.tallies.sum(), 1 / (per_strength * work.grid.cell_volume()), density.components[0], threads());
 }
 
 void MeshScheme::calculate_potential(MeshField const& density, MeshField& potential) {

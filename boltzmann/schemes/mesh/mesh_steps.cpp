@@ -400,7 +400,7 @@ class MeshSteps final : public FusedSteps {
     scheme_.measured_ = false;
     Ghosts const& ghosts = work_.ghosts;
     std::size_t const nx = ghosts.nodes(0), rows = ghosts.nodes(1) * ghosts.nodes(2);
-    ghosts.fold(counts_, unit_, work_.density.components[0], scheme_.threads());
+    ghosts.fold(counts_.data(), unit_, work_.density.components[0], scheme_.threads());
     scheme_.add_background(work_);
     work_.solver.solve(work_.density.components[0], scheme_.law_.constant, nullptr, work_.field.components,
                        scheme_.solving_ranks(work_));

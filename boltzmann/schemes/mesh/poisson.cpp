@@ -513,6 +513,11 @@ struct PoissonSolver::Plans {
   }
 };
 
+std::pair<std::size_t, std::size_t> SolvingRanks::part(std::size_t rank, std::size_t planes) const {
+  auto const size = static_cast<std::size_t>(team->size());
+  return {planes * rank / size, planes * (rank + 1) / size};
+}
+
 PoissonSolver::PoissonSolver(MeshGrid const& grid, std::array<FieldEnds, 3> const& ends, PoissonForm form, int threads,
                              GreensFunction const& green)
     : plans_(std::make_unique<Plans>(grid, ends, form, threads, green)) {}

@@ -9,6 +9,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace boltzmann {
@@ -51,6 +52,9 @@ struct SolvingRanks {
   /// For each rank, of each plane (all nodes with one place along the last axis), whether it reads the solution there;
   /// empty: everybody reads all of it.
   std::vector<std::vector<char>> reads;
+
+  /// A rank solves for planes [begin, end) of so many, of which alone it has to know the density.
+  std::pair<std::size_t, std::size_t> part(std::size_t rank, std::size_t planes) const;
 };
 
 /// Solves laplacian phi = -constant rho, E = -grad phi on the nodes of a mesh. Densities and potentials are arrays of
@@ -83,8 +87,7 @@ class PoissonSolver {
   /// about the outside. Error if `potential` has not grid.size() numbers.
   void field(std::vector<double> const& potential, std::vector<std::vector<double>>& field);
   /// Both, without a way back in between; `potential` may be null. Error as in potential(). With `ranks` for all of them,
-  /// of the same density and in two or three dimensions: each does a part, and tells the others what they read. At
-  /// planes that it does not read a rank finds anything.
+  /// in two or three dimensions: each does a part, and tells the others what they read. Elsewhere a rank finds anything.
   void solve(std::vector<double> const& density, double constant, std::vector<double>* potential,
              std::vector<std::vector<double>>& field, SolvingRanks const* ranks = nullptr);
 

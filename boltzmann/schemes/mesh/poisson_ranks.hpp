@@ -92,7 +92,11 @@ class Ranks {
     }
   };
 
-  Range of(std::size_t rank, std::size_t all) const { return {all * rank / size_, all * (rank + 1) / size_}; }
+  Range of(std::size_t rank, std::size_t all) const {
+    if (!team_) return {0, all};
+    auto const [begin, end] = all_->part(rank, all);
+    return {begin, end};
+  }
 
   void turn(Planes const& array, Range samples, bool to_lines) const {
     auto const part = [&](std::size_t of_planes, std::size_t of_lines) {

@@ -69,11 +69,12 @@ class Tallies {
   }
   /// At least one.
   std::vector<std::unique_ptr<AlignedArray<std::int64_t>>>& arrays() { return arrays_; }
-  /// What all have counted, after count().
-  std::vector<std::int64_t> sum() const {
-    std::vector<std::int64_t> counts(size_);
-    for (auto const& array : arrays_)
-      for (std::size_t i = 0; i < size_; ++i) counts[i] += (*array)[i];
+  /// What all have counted, after count(): in the first array.
+  std::int64_t* sum() {
+    if (arrays_.empty()) give(take());
+    std::int64_t* const counts = arrays_.front()->data();
+    for (std::size_t k = 1; k < arrays_.size(); ++k)
+      for (std::size_t i = 0; i < size_; ++i) counts[i] += (*arrays_[k])[i];
     return counts;
   }
 
