@@ -12,8 +12,9 @@
 namespace boltzmann {
 namespace {
 
-// A mesh of fewer nodes is solved sooner than ranks have told each other of their parts.
-constexpr std::size_t nodes_worth_dividing = 1U << 14U;
+// A mesh of fewer nodes is solved sooner than ranks have told each other of their parts. Whole steps wait for others twice
+// otherwise, and have so little else to do that it has to be larger.
+constexpr std::size_t nodes_worth_dividing = 1U << 14U, of_whole_steps = 1U << 17U;
 
 }  // namespace
 
@@ -47,8 +48,9 @@ void MeshScheme::agree_on_strengths(Work& work) {
 }
 
 /// Those that solve the mesh together; null: each solves all of it.
-SolvingRanks const* MeshScheme::solving_ranks(Work& work) const {
-  if (!division_ || work.grid.dimension == 1 || work.grid.size() < nodes_worth_dividing) return nullptr;
+SolvingRanks const* MeshScheme::solving_ranks(Work& work, bool whole_steps) const {
+  std::size_t const least = whole_steps ? of_whole_steps : nodes_worth_dividing;
+  if (!division_ || work.grid.dimension == 1 || work.grid.size() < least) return nullptr;
   work.ranks = {&division_->team(), {}};
   return &work.ranks;
 }
@@ -137,7 +139,7 @@ SolvingRanks const* MeshScheme::deposit_share(Work& work, Whose readers) {
     division_->make_whole();
     refuse_outside(first);
   }
-  auto const* const ranks = solving_ranks(work);
+  auto const* const ranks = solving_ranks(work, false);
   double const unit = 1 / (work.per_strength * work.grid.cell_volume());
   auto& density = work.density.components[0];
   if (ranks && readers == Whose::own) {

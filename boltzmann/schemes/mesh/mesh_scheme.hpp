@@ -185,7 +185,7 @@ class MeshScheme : public Scheme {
 
   // divided_mesh.cpp: over the ranks of a team.
   SolvingRanks const* deposit_share(Work& work, Whose readers);
-  SolvingRanks const* solving_ranks(Work& work) const;
+  SolvingRanks const* solving_ranks(Work& work, bool whole_steps) const;
   std::vector<char> planes_read(Work const& work) const;
   void learn_readers(Work& work) const;
   void sum_in_planes(Work& work, std::int64_t* counts) const;

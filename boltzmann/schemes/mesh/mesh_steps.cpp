@@ -403,7 +403,7 @@ class MeshSteps final : public FusedSteps {
     ghosts.fold(counts_.data(), unit_, work_.density.components[0], scheme_.threads());
     scheme_.add_background(work_);
     work_.solver.solve(work_.density.components[0], scheme_.law_.constant, nullptr, work_.field.components,
-                       scheme_.solving_ranks(work_));
+                       scheme_.solving_ranks(work_, true));
     int const order = ghosts.order();
     for_ranges(rows, row_grain(), scheme_.threads(), [&](std::size_t begin, std::size_t end) {
       std::vector<Real> line(nx);
