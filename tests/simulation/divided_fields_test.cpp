@@ -323,7 +323,7 @@ TEST(DividedMesh, SolvedByAllRanksTogether) {
                         2);
 }
 
-TEST(DividedMesh, SolvedTogetherInWholeSteps) { expect_same_plasma<2>({.cells = {2000, 66}}, 2, {3}); }
+TEST(DividedMesh, SolvedTogetherInWholeSteps) { expect_same_plasma<2>({.cells = {2000, 264}}, 2, {3}); }
 
 // Two ranks with half of the box each: of counts and of the field go what is in three planes beside it (of the component
 // that is found line by line, half of all that is read).

@@ -14,7 +14,7 @@ namespace {
 
 // A mesh of fewer nodes is solved sooner than ranks have told each other of their parts. Whole steps wait for others twice
 // otherwise, and have so little else to do that it has to be larger.
-constexpr std::size_t nodes_worth_dividing = 1U << 14U, of_whole_steps = 1U << 17U;
+constexpr std::size_t nodes_worth_dividing = 1U << 14U, of_whole_steps = 1U << 19U;
 
 }  // namespace
 
