@@ -269,20 +269,25 @@ void Neighbourhood::agree_on_extents(std::vector<Sorting>& all, double reach) {
     one.dimension = box_->dimension();
     Images const images(*box_);
     auto const D = static_cast<std::size_t>(one.dimension);
+    auto const edges = box_->edges();
     std::vector<double> with_images(one.own.size(), 1.0);  // how many each row is then
     for (std::size_t a = 0; a < D; ++a) {
       int const axis = static_cast<int>(a);
       Interval rows{infinite, -infinite}, all_images = rows;
       auto const take = [](Interval& in, double x) { in.low = std::min(in.low, x), in.high = std::max(in.high, x); };
-      double const* x = one.references.get() + a;
+      // Between these rows have no images.
+      bool const any = images.most(axis, reach) > 0;
+      double const low = any ? edges[a] + reach : -infinite, high = any ? edges[3 + a] - reach : infinite;
+      double const* next = one.references.get() + a;
       for (double& count : with_images) {
-        take(rows, *x);
-        if (auto const [first, last] = images.turns_within(axis, reach, *x); first != last) {
-          take(all_images, images.at(axis, first, *x));
-          take(all_images, images.at(axis, last, *x));
+        double const x = *std::exchange(next, next + D);
+        take(rows, x);
+        if (x > low && x < high) continue;
+        if (auto const [first, last] = images.turns_within(axis, reach, x); first != last) {
+          take(all_images, images.at(axis, first, x));
+          take(all_images, images.at(axis, last, x));
           count *= last - first + 1;
         }
-        x += D;
       }
       one.extents.rows.low[a] = rows.low, one.extents.rows.high[a] = rows.high;
       one.extents.images.low[a] = std::min(rows.low, all_images.low);
