@@ -176,8 +176,7 @@ class Neighbourhood {
   bool agree_on_order(std::vector<Sorting>& all, double reach);
   void find_who_reads(std::vector<Sorting>& all, double reach) const;
   std::vector<std::vector<std::uint32_t>> readers(Sorting const& one) const;
-  void build_part(Sorting const& one, std::vector<std::uint32_t> numbers, std::size_t e, double reach,
-                  int threads);
+  void build_part(Sorting const& one, std::vector<std::uint32_t> numbers, std::size_t e, double reach, int threads);
   void become_whole(int threads);
   void tell_moved(std::vector<Moved>& moved);
   /// How far beyond what its lists need a rank knows particles.

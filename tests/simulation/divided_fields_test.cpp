@@ -367,6 +367,7 @@ TEST(DividedMesh, GoesOnWithAnyNumberOfRanks) {
   expect_to_go_on(scenario("two-stream"));
   expect_to_go_on([](World& world) { plasma<2>(world, {.precision = Precision::single}); });
   expect_to_go_on([](World& world) { plasma<3>(world, {.alike = false}); });
+  expect_to_go_on([](World& world) { plasma<2>(world, {.alike = false, .cells = {130, 140}}); });  // solved together
 }
 
 TEST(DividedMesh, FailsWithTheLineOfOneRank) {
@@ -619,6 +620,20 @@ TEST(DividedP3m, InThreeDimensionsBesidePairs) {
 
 TEST(DividedP3m, InTwoDimensionsWithABackground) {
   expect_same_bits([](World& world) { salt<2>(world, true); }, 20, {2, 3});
+}
+
+// Each move of the box makes the mesh anew.
+TEST(DividedP3m, UnderAPressure) {
+  for (auto const method : {BarostatMethod::cell_rescaling, BarostatMethod::mtk}) {
+    BarostatOptions options{.pressure = 0.5, .temperature = 1, .compressibility = 0.1, .rate = 5};
+    options.method = method;
+    options.every = 3;
+    auto const under_pressure = [&](World& world) {
+      salt<2>(world, false);
+      world.simulation->add(Barostat(options, 1));
+    };
+    expect_same_bits(under_pressure, 14, {2, 3});
+  }
 }
 
 // On a mesh that ranks solve together, each for the particles that it has.

@@ -91,6 +91,7 @@ MeshScheme::~MeshScheme() = default;
 
 void MeshScheme::changed() {
   work_.reset();
+  agreed_ = measured_ = false;  // with it goes how finely strengths are counted
   Scheme::changed();
 }
 
