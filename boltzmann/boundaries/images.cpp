@@ -68,24 +68,6 @@ int Images::most(int axis, double reach) const {
   return box_->boundary(axis) == Boundary::mirror ? 1 : 0;
 }
 
-Images::Range Images::turns_near_end(int axis, double reach, double x) const {
-  double const low = edges_[axis], high = edges_[3 + axis];
-  auto const is_near = [&](int n) {
-    double const there = at(axis, n, x);
-    return there >= low - reach && there <= high + reach;
-  };
-  Range range;
-  if (box_->periodic(axis)) {
-    auto const may_be = [&](int turns) { return turns == 1 || turns <= most(axis, reach); };
-    while (is_near(range.first - 1) && may_be(1 - range.first)) --range.first;
-    while (is_near(range.last + 1) && may_be(1 + range.last)) ++range.last;
-  } else {
-    if (x <= low + reach && mirrors(axis, Box::End::low) && is_near(-1)) range.first = -1;
-    if (x >= high - reach && mirrors(axis, Box::End::high) && is_near(1)) range.last = 1;
-  }
-  return range;
-}
-
 bool Images::exists(Turns const& turns, double reach) const {
   for (int a = 0; a < 3; ++a) {
     if (turns[a] == 0) continue;

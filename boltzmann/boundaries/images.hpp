@@ -100,6 +100,28 @@ inline double Images::at(int axis, int turns, double x) const {
   return box_->periodic(axis) ? x + turns * (high - low) : 2 * (turns < 0 ? low : high) - x;
 }
 
+inline Images::Range Images::turns_near_end(int axis, double reach, double x) const {
+  double const low = edges_[axis], high = edges_[3 + axis];
+  double const length = high - low, least = low - reach, greatest = high + reach;
+  auto const is_near = [&](int n) {
+    double const there = at(axis, n, x);
+    return there >= least && there <= greatest;
+  };
+  Range range;
+  if (box_->periodic(axis) && length > 2.1 * reach) {  // one image at most
+    if (x - length >= least) return {-1, 0};
+    if (x + length <= greatest) return {0, 1};
+  } else if (box_->periodic(axis)) {
+    auto const may_be = [&](int turns) { return turns == 1 || turns <= most(axis, reach); };
+    while (is_near(range.first - 1) && may_be(1 - range.first)) --range.first;
+    while (is_near(range.last + 1) && may_be(1 + range.last)) ++range.last;
+  } else {
+    if (x <= low + reach && mirrors(axis, Box::End::low) && is_near(-1)) range.first = -1;
+    if (x >= high - reach && mirrors(axis, Box::End::high) && is_near(1)) range.last = 1;
+  }
+  return range;
+}
+
 template <class Function>
 void Images::each(double const* x, double reach, Function const& function) const {
   if (box_->sheared()) return each_sheared(x, reach, function);

@@ -5,6 +5,7 @@
 // lines (in 1D of cells): here *units*, of which every rank knows how many particles each has. What others need of a
 // unit is then geometry. One run for each rank is a layer of space, cut anywhere; where there are many ranks, they get
 // columns of whole units.
+#include <boltzmann/core/in_dimension.hpp>
 #include <boltzmann/neighbours/neighbourhood.hpp>
 #include <boltzmann/neighbours/shares_of_space.hpp>
 
@@ -13,6 +14,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 namespace boltzmann {
@@ -58,18 +60,17 @@ double distance2(Place const& a, Place const& b) {
   return first * first + second * second;
 }
 
-/// Of a position, three numbers, which is told apart along these of its axes.
-double distance2(Place const& a, std::array<int, 2> const& axes, double const* x) {
-  double const first = x[axes[0]], second = x[axes[1]];
-  return distance2(a, {Interval{first, first}, Interval{second, second}});
-}
-
 double furthest2(Place const& a, Place const& b) {
   double square = 0;
   for (int n = 0; n < 2; ++n) square += a[n].furthest(b[n]) * a[n].furthest(b[n]);
   return square;
 }
 
+/// The image of an interval along an axis.
+Interval image_of(Images const& images, int axis, int turns, Interval const& x) {
+  double const low = images.at(axis, turns, x.low), high = images.at(axis, turns, x.high);
+  return {std::min(low, high), std::max(low, high)};
+}
 /// Where an interval along an axis is seen, and by how many turns of images.
 struct Seen {
   int turns;
@@ -78,38 +79,33 @@ struct Seen {
 std::vector<Seen> images_of(Images const& images, int axis, double reach, Interval const& x) {
   std::vector<Seen> all{{0, x}};
   for (int turn = 1, most = images.most(axis, reach); turn <= most; ++turn)
-    for (int const sign : {-1, 1}) {
-      double const low = images.at(axis, sign * turn, x.low), high = images.at(axis, sign * turn, x.high);
-      all.push_back({sign * turn, {std::min(low, high), std::max(low, high)}});
-    }
+    for (int const sign : {-1, 1}) all.push_back({sign * turn, image_of(images, axis, sign * turn, x)});
   return all;
 }
 
-/// A place that images of a unit's particles, by these turns along the axes, may be near to.
-struct Near {
-  Place place;
-  std::array<int, 2> turns;
-};
-/// Who reads particles of a unit: all of them, or those that come near.
+/// Who reads particles of a unit: all of them, or those near these places, which are where a particle has to be for it,
+/// or an image of it, to be near what the rank has.
 struct Reader {
   std::size_t rank;
   bool all;
-  std::vector<Near> near;
+  SortedCopy::NearPlaces near;
 };
 
-/// Adds what is near of these places. True if they are within the distance of all that is in the unit.
+/// Adds what is near of these places; back(n, turns, interval) is where a particle is, along axis n of them, whose image
+/// by these turns is there. True if they are within the distance of all that is in the unit.
+template <class Back>
 bool add_near(std::vector<Place> const& places, std::vector<Seen> const& inner, std::vector<Seen> const& outer,
-              double square, std::vector<Near>& near) {
+              Back const& back, SortedCopy::NearPlaces& near) {
   for (auto const& place : places)
     for (auto const& b : outer) {
       double const across = place[1].distance(b.at);
-      if (across * across > square) continue;
+      if (across * across > near.square) continue;
       if (b.turns != 0 && place[1].low == -infinite) continue;  // it is as far from all images
       for (auto const& a : inner) {
         if (a.turns != 0 && place[0].low == -infinite) continue;
-        if (distance2(place, {a.at, b.at}) > square) continue;
-        if (furthest2(place, {a.at, b.at}) <= square) return true;
-        near.push_back({place, {a.turns, b.turns}});
+        if (distance2(place, {a.at, b.at}) > near.square) continue;
+        if (furthest2(place, {a.at, b.at}) <= near.square) return true;
+        near.add(back(0, a.turns, place[0]), back(1, b.turns, place[1]));
       }
     }
   return false;
@@ -121,11 +117,8 @@ struct Extents {
   double count = 0;  ///< of images
 
   void add(Extents const& other) {
-    for (int a = 0; a < 3; ++a) {
-      rows.low[a] = std::min(rows.low[a], other.rows.low[a]), rows.high[a] = std::max(rows.high[a], other.rows.high[a]);
-      images.low[a] = std::min(images.low[a], other.images.low[a]);
-      images.high[a] = std::max(images.high[a], other.images.high[a]);
-    }
+    rows.take(other.rows);
+    images.take(other.images);
     count += other.count;
   }
 };
@@ -136,10 +129,36 @@ Extents nothing() {
   return none;
 }
 
-bool is_folded(Grid const& grid, Bounds const& bounds) {
-  for (int a = 0; a < grid.dimension; ++a)
-    if (grid.folds(a, bounds.low[a], bounds.high[a])) return true;
-  return false;
+/// Of rows, D numbers each, and their images.
+template <int D>
+Extents extents_of(Box const& box, double reach, double const* rows, std::size_t count) {
+  Images const images(box);
+  Extents all = nothing();
+  std::array<double, D> low, high, lowest, highest;
+  for (int a = 0; a < D; ++a) {
+    bool const any = images.most(a, reach) > 0;
+    low[a] = any ? box.low(a) + reach : -infinite, high[a] = any ? box.high(a) - reach : infinite;
+    lowest[a] = infinite, highest[a] = -infinite;
+  }
+  for (double const* x = rows; count > 0; --count, x += D) {
+    bool inside = true;  // where rows have no images
+    for (int a = 0; a < D; ++a) {
+      lowest[a] = std::min(lowest[a], x[a]), highest[a] = std::max(highest[a], x[a]);
+      inside = inside && x[a] > low[a] && x[a] < high[a];
+    }
+    if (inside) continue;
+    double with_images = 1;
+    for (int a = 0; a < D; ++a) {
+      auto const [first, last] = images.turns_within(a, reach, x[a]);
+      for (int const turns : {first, last})
+        if (turns != 0) all.images.take(a, images.at(a, turns, x[a]));
+      with_images *= last - first + 1;
+    }
+    all.count += with_images - 1;
+  }
+  std::ranges::copy(lowest, all.rows.low.begin()), std::ranges::copy(highest, all.rows.high.begin());
+  all.images.take(all.rows);
+  return all;
 }
 
 }  // namespace
@@ -147,9 +166,9 @@ bool is_folded(Grid const& grid, Bounds const& bounds) {
 /// One sorted copy, and what all ranks know of its rows.
 struct Neighbourhood::Sorting {
   SortedCopy* copy;
-  std::vector<std::uint32_t> own;        ///< numbers of this rank's particles before, ascending
-  std::unique_ptr<double[]> references;  ///< theirs
-  std::vector<std::uint32_t> unit;       ///< in which each of them is
+  std::vector<std::uint32_t> own;         ///< numbers of this rank's particles before, ascending
+  std::unique_ptr<double[]> references;   ///< theirs
+  std::vector<std::uint32_t> cell, unit;  ///< in which each of them is
   Extents extents = nothing();
   Grid grid, cells;  ///< that sorts rows, and that lists are found with
   int dimension = 1;
@@ -166,18 +185,13 @@ struct Neighbourhood::Sorting {
   std::array<int, 2> axes() const { return dimension == 1 ? std::array{0, 1} : std::array{1, 2}; }
   std::int64_t along(int n) const { return axes()[n] < dimension ? grid.count[axes()[n]] : 1; }
   std::size_t units() const { return static_cast<std::size_t>(along(0) * along(1)); }
+  std::uint32_t unit_of(std::uint32_t cell) const { return cell / static_cast<std::uint32_t>(cells_of_unit()); }
   std::size_t cells_of_unit() const { return dimension == 1 ? 1 : static_cast<std::size_t>(grid.count[0]); }
-  /// The cell along an axis, as it is in space.
-  std::int64_t unfolded(int axis, std::int64_t folded) const {
-    std::int64_t const n = grid.count[axis], lowest = grid.along(axis, extents.rows.low[axis]);
-    std::int64_t const turns = (folded - lowest) % n;
-    return lowest + (turns < 0 ? turns + n : turns);
-  }
   Interval cells_along(int n, std::int64_t first, std::int64_t last) const {
     int const axis = axes()[n];
     if (axis >= dimension) return {-infinite, infinite};
-    return {grid.edge[axis] * static_cast<double>(unfolded(axis, first)),
-            grid.edge[axis] * static_cast<double>(unfolded(axis, last) + 1)};
+    return {grid.edge[axis] * static_cast<double>(grid.unfolded(axis, first)),
+            grid.edge[axis] * static_cast<double>(grid.unfolded(axis, last) + 1)};
   }
   static void add_place(Place const& place, std::vector<Place>& places) {
     bool const goes_on = !places.empty() && places.back()[0] == place[0] && places.back()[1].high == place[1].low;
@@ -190,7 +204,8 @@ struct Neighbourhood::Sorting {
   void add_line(std::int64_t line, std::int64_t first, std::int64_t last, std::vector<Place>& places) const {
     Interval const across = cells_along(1, line, line);
     for (std::int64_t begin = first, end = first; begin <= last; begin = end) {
-      for (end = begin + 1; end <= last && unfolded(axes()[0], end) == unfolded(axes()[0], end - 1) + 1;) ++end;
+      for (end = begin + 1; end <= last && grid.unfolded(axes()[0], end) == grid.unfolded(axes()[0], end - 1) + 1;)
+        ++end;
       add_place({cells_along(0, begin, end - 1), across}, places);
     }
   }
@@ -226,12 +241,16 @@ struct Neighbourhood::Sorting {
     for (std::size_t k = 0; k < order.size(); ++k) order[k] = static_cast<std::int64_t>(k);
     if (axes()[n] < dimension)
       std::sort(order.begin(), order.end(),
-                [&](auto a, auto b) { return unfolded(axes()[n], a) < unfolded(axes()[n], b); });
+                [&](auto a, auto b) { return grid.unfolded(axes()[n], a) < grid.unfolded(axes()[n], b); });
     return order;
   }
   /// Adds how many entries these lists had of own particles, of which we know the rows then, and what one takes besides.
   void add_work(std::deque<List> const& lists, std::vector<std::uint32_t> const* row_of, std::int64_t* work) const {
-    for (auto const of_particle : unit) work[of_particle] += work_of_a_row;
+    auto const around = static_cast<std::int64_t>(work_around(*copy, own.size())), all = std::ssize(unit);
+    for (std::int64_t k = 0, done = 0; k < all; ++k) {
+      std::int64_t const until = around * (k + 1) / all;
+      work[unit[static_cast<std::size_t>(k)]] += work_of_a_row + until - std::exchange(done, until);
+    }
     if (row_of == nullptr || row_of->size() != copy->ensemble().size()) return;
     for (auto const& one : lists) {
       if (one.target != copy) continue;
@@ -263,37 +282,15 @@ struct Neighbourhood::Sorting {
 void Neighbourhood::agree_on_extents(std::vector<Sorting>& all, double reach) {
   for (auto& one : all) {
     AnyEnsemble const& ensemble = one.copy->ensemble();
-    for (auto const& [begin, end] : ensemble.share()->stretches)
-      for (std::size_t i = begin; i < end; ++i) one.own.push_back(static_cast<std::uint32_t>(i));
+    for (auto const& [begin, end] : ensemble.share()->stretches) {
+      one.own.resize(one.own.size() + end - begin);
+      std::iota(one.own.end() - static_cast<std::ptrdiff_t>(end - begin), one.own.end(),
+                static_cast<std::uint32_t>(begin));
+    }
     one.references = one.copy->references_of(one.own);
     one.dimension = box_->dimension();
-    Images const images(*box_);
-    auto const D = static_cast<std::size_t>(one.dimension);
-    auto const edges = box_->edges();
-    std::vector<double> with_images(one.own.size(), 1.0);  // how many each row is then
-    for (std::size_t a = 0; a < D; ++a) {
-      int const axis = static_cast<int>(a);
-      Interval rows{infinite, -infinite}, all_images = rows;
-      auto const take = [](Interval& in, double x) { in.low = std::min(in.low, x), in.high = std::max(in.high, x); };
-      // Between these rows have no images.
-      bool const any = images.most(axis, reach) > 0;
-      double const low = any ? edges[a] + reach : -infinite, high = any ? edges[3 + a] - reach : infinite;
-      double const* next = one.references.get() + a;
-      for (double& count : with_images) {
-        double const x = *std::exchange(next, next + D);
-        take(rows, x);
-        if (x > low && x < high) continue;
-        if (auto const [first, last] = images.turns_within(axis, reach, x); first != last) {
-          take(all_images, images.at(axis, first, x));
-          take(all_images, images.at(axis, last, x));
-          count *= last - first + 1;
-        }
-      }
-      one.extents.rows.low[a] = rows.low, one.extents.rows.high[a] = rows.high;
-      one.extents.images.low[a] = std::min(rows.low, all_images.low);
-      one.extents.images.high[a] = std::max(rows.high, all_images.high);
-    }
-    for (double const count : with_images) one.extents.count += count - 1;
+    in_dimension(one.dimension,
+                 [&](auto D) { one.extents = extents_of<D>(*box_, reach, one.references.get(), one.own.size()); });
   }
   Team& team = division_->team();
   team.meet(Team::Occasion::gathers);
@@ -316,7 +313,7 @@ bool Neighbourhood::agree_on_order(std::vector<Sorting>& all, double reach) {
     double const sorting = one.copy->sorting_reach(reach, box_->edges());
     one.grid = Cells::grid_for(one.dimension, extents.rows, size, sorting);
     one.cells = Cells::grid_for(one.dimension, extents.images, size + static_cast<std::size_t>(extents.count), reach);
-    if (is_folded(one.grid, extents.rows)) return false;
+    if (one.grid.is_folded) return false;
   }
   // As many for all, so that what interacts is shared out alike.
   auto const& largest = *std::max_element(all.begin(), all.end(), [](auto const& a, auto const& b) {
@@ -330,9 +327,9 @@ bool Neighbourhood::agree_on_order(std::vector<Sorting>& all, double reach) {
     Sorting& one = all[e];
     std::size_t const at = counts.size(), units = one.units();
     counts.resize(at + (columns ? 2 : 1) * units);
-    one.unit = cells_of(one.grid, one.references.get(), static_cast<std::size_t>(one.dimension), one.own.size());
-    auto const cells_of_unit = static_cast<std::uint32_t>(one.cells_of_unit());
-    for (auto& unit : one.unit) ++counts[at + (unit /= cells_of_unit)];
+    one.cell = cells_of(one.grid, one.references.get(), static_cast<std::size_t>(one.dimension), one.own.size());
+    one.unit.resize(one.cell.size());
+    for (std::size_t k = 0; k < one.unit.size(); ++k) ++counts[at + (one.unit[k] = one.unit_of(one.cell[k]))];
     if (columns) one.add_work(lists_, e < row_of_.size() ? &row_of_[e] : nullptr, counts.data() + at + units);
   }
   division_->team().sum(counts);
@@ -380,6 +377,10 @@ std::vector<std::vector<std::uint32_t>> Neighbourhood::readers(Sorting const& on
   auto const seen = [&](int n, Interval const& x) {
     return axes[n] < one.dimension ? images_of(images, axes[n], one.wide, x) : std::vector<Seen>{{0, x}};
   };
+  // A wall's image has the particle as its image, others by as many turns back.
+  auto const back = [&](int n, int turns, Interval const& x) {
+    return turns == 0 ? x : image_of(images, axes[n], box_->periodic(axes[n]) ? -turns : turns, x);
+  };
   auto const readers_of = [&](std::size_t unit) {
     std::vector<Reader> readers;
     std::size_t const begin = one.start[unit], end = one.start[unit + 1];
@@ -389,29 +390,24 @@ std::vector<std::vector<std::uint32_t>> Neighbourhood::readers(Sorting const& on
     for (std::size_t r = 0; r < ranks; ++r) {
       // Whose a particle is in a unit that is cut is known to those who have the whole unit.
       bool const owns = r >= first && r <= last;
-      std::vector<Near> near;
-      bool const all = add_near(one.read_at[r], inner, outer, one.wide * one.wide, near);
-      if (owns || all || !near.empty()) readers.push_back({r, owns || all || first != last, std::move(near)});
+      SortedCopy::NearPlaces near{.places = {}, .axes = axes, .square = one.wide * one.wide};
+      bool const all = add_near(one.read_at[r], inner, outer, back, near);
+      if (owns || all || !near.places.empty()) readers.push_back({r, owns || all || first != last, std::move(near)});
     }
     return readers;
   };
   std::vector<std::vector<Reader>> of_unit(one.units());
   std::vector<std::vector<std::uint32_t>> to(ranks);
-  for (std::size_t k = 0; k < one.own.size(); ++k) {
-    double const* const x = one.references.get() + k * static_cast<std::size_t>(one.dimension);
-    std::size_t const unit = one.unit[k];
-    auto& readers = of_unit[unit];
-    if (readers.empty()) readers = readers_of(unit);
-    auto const is_near = [&](Near const& near) {
-      std::array<double, 3> at{};
-      for (int n = 0; n < 2 && axes[n] < one.dimension; ++n)
-        at[axes[n]] = images.at(axes[n], near.turns[n], x[axes[n]]);
-      return distance2(near.place, axes, at.data()) <= one.wide * one.wide;
-    };
-    for (Reader const& reader : readers)
-      if (reader.all || std::any_of(reader.near.begin(), reader.near.end(), is_near))
-        to[reader.rank].push_back(one.own[k]);
-  }
+  in_dimension(one.dimension, [&](auto D) {
+    double const* x = one.references.get();
+    for (std::size_t k = 0; k < one.own.size(); ++k, x += D) {
+      auto& readers = of_unit[one.unit[k]];
+      if (readers.empty()) readers = readers_of(one.unit[k]);
+      for (Reader const& reader : readers)
+        if (reader.all || reader.near.contains(x[D == 1 ? 0 : 1], D == 3 ? x[D - 1] : 0))
+          to[reader.rank].push_back(one.own[k]);
+    }
+  });
   return to;
 }
 
@@ -419,21 +415,44 @@ std::vector<std::vector<std::uint32_t>> Neighbourhood::readers(Sorting const& on
 void Neighbourhood::build_part(Sorting const& one, std::vector<std::uint32_t> numbers, std::size_t e, double reach,
                                int threads) {
   auto const rank = static_cast<std::size_t>(division_->team().rank());
-  auto const D = static_cast<std::size_t>(one.dimension);
   SortedCopy::Part part;
-  part.references = one.copy->references_of(numbers);
-  Cells const sorted(one.grid, part.references.get(), D, numbers.size(), one.copy->sorting_reach(reach, box_->edges()),
-                     threads);
+  // What is known of those that were this rank's before is not found again.
+  std::vector<std::uint32_t> come(numbers.size()), place_of_come(numbers.size()), cell(numbers.size());
+  part.references = std::make_unique_for_overwrite<double[]>(static_cast<std::size_t>(one.dimension) * numbers.size());
+  in_dimension(one.dimension, [&](auto D) {
+    auto const take = [to = part.references.get(), D](std::size_t n, double const* from) {
+      for (int a = 0; a < D; ++a) to[D * n + a] = from[a];
+    };
+    std::size_t count = 0;
+    for (std::size_t n = 0, k = 0; n < numbers.size(); ++n) {
+      while (k < one.own.size() && one.own[k] < numbers[n]) ++k;
+      if (k < one.own.size() && one.own[k] == numbers[n]) {
+        cell[n] = one.cell[k];
+        take(n, one.references.get() + D * k);
+      } else {
+        come[count] = numbers[n];
+        place_of_come[count++] = static_cast<std::uint32_t>(n);
+      }
+    }
+    come.resize(count);
+    auto const references = one.copy->references_of(come);
+    auto const cells = cells_of(one.grid, references.get(), D, come.size(), threads);
+    for (std::size_t m = 0; m < come.size(); ++m) {
+      cell[place_of_come[m]] = cells[m];
+      take(place_of_come[m], references.get() + D * m);
+    }
+  });
+  part.sorted = Cells(one.grid, cell, one.copy->sorting_reach(reach, box_->edges()));
   part.grid = one.cells;
-  part.order = sorted.items();
   part.rows.resize(numbers.size());
   auto& owners = division_->owners_here(one.copy->ensemble());
   Numbers own(one.copy->ensemble().size());
   std::size_t const cells_of_unit = one.cells_of_unit();
   auto run = one.runs.begin();
   for (std::size_t unit = 0, n = 0; n < numbers.size(); ++unit)
-    for (std::size_t row = one.start[unit], end = sorted.start()[(unit + 1) * cells_of_unit]; n < end; ++n, ++row) {
-      std::uint32_t const i = numbers[part.order[n]];
+    for (std::size_t row = one.start[unit], end = part.sorted.start()[(unit + 1) * cells_of_unit]; n < end;
+         ++n, ++row) {
+      std::uint32_t const i = numbers[part.sorted.items()[n]];
       while (row >= run[1].first) ++run;
       part.rows[n] = static_cast<std::uint32_t>(row);
       owners[i] = static_cast<std::uint16_t>(run->rank);
@@ -447,8 +466,7 @@ void Neighbourhood::build_part(Sorting const& one, std::vector<std::uint32_t> nu
   std::stable_partition(places.begin(), places.end(), [](Place const& place) { return place[0].low == -infinite; });
   part.near.axes = one.axes();
   part.near.square = one.wide * one.wide;
-  for (auto const& [first, second] : places)
-    part.near.places.push_back({{first.low, second.low}, {first.high, second.high}});
+  for (auto const& [first, second] : places) part.near.add(first, second);
   own_[e].clear();
   for (auto stretch = one.runs.begin(); stretch + 1 != one.runs.end(); ++stretch)
     if (stretch->rank == rank && stretch->first < stretch[1].first)

@@ -1,8 +1,6 @@
 // Counting sort of points into cells.
 #include <boltzmann/neighbours/cells.hpp>
 
-#include <boltzmann/core/threads.hpp>
-
 #include <algorithm>
 #include <cmath>
 
@@ -12,26 +10,14 @@ namespace {
 // Edges of a cell in units of the reach: long runs along the first axis are cut to measure, the others tell rows of
 // cells that are out of reach.
 constexpr double first_edge = 0.25, other_edge = 0.5;
-constexpr std::size_t points_per_task = 2048;  // points
-
-/// Of each of these points, in a grid of D dimensions.
-template <int D>
-void find_cells(Grid const& of, double const* rows, std::size_t stride, std::size_t begin, std::size_t end,
-                std::uint32_t* cell) {
-  Grid grid = of;  // known to nobody else, so that it stays in registers
-  grid.dimension = D;
-  for (std::size_t i = begin; i < end; ++i) cell[i] = static_cast<std::uint32_t>(grid.cell_of(rows + i * stride));
-}
 
 }  // namespace
 
 std::vector<std::uint32_t> cells_of(Grid const& grid, double const* rows, std::size_t stride, std::size_t count,
                                     int threads) {
   std::vector<std::uint32_t> cell(count);
-  for_ranges(count, points_per_task, threads, [&](std::size_t begin, std::size_t end) {
-    auto const find = grid.dimension == 1 ? find_cells<1> : grid.dimension == 2 ? find_cells<2> : find_cells<3>;
-    find(grid, rows, stride, begin, end, cell.data());
-  });
+  find_cells(
+      grid, count, [=](std::size_t i) { return rows + i * stride; }, cell.data(), threads);
   return cell;
 }
 
@@ -68,22 +54,61 @@ Grid Cells::grid_for(int dimension, Bounds const& extent, std::size_t count, dou
     grid.count[a] = static_cast<std::int64_t>(along[a]);
     // What near() asks of the largest block, and where points have no cell of their own.
     double const largest = (2 + largest_block[a]) * reach * grid.inverse_edge[a] + 3;
-    grid.by_number[a] = along[a] < largest || grid.folds(a, extent.low[a], extent.high[a]);
+    bool const folds = grid.folds(a, extent.low[a], extent.high[a]);
+    grid.by_number[a] = along[a] < largest || folds;
+    grid.is_folded = grid.is_folded || folds;
+    grid.lowest[a] = grid.along(a, extent.low[a]);
   }
   return grid;
 }
 
-Cells::Cells(Grid const& grid, double const* rows, std::size_t stride, std::size_t count, double reach, int threads)
-    : grid_(grid), reach_(reach) {
-  start_.assign(grid_.cells() + 2, 0);
-  items_.resize(count);
-  auto const cell = cells_of(grid_, rows, stride, count, threads);
-  for (std::size_t i = 0; i < count; ++i) ++start_[cell[i] + 2];
-  std::uint32_t before = 0;
-  for (auto& start : start_) start = before += start;
+Cells::Cells(Grid const& grid, std::span<std::uint32_t const> cell_of_point, double reach)
+    : grid_(grid),
+      reach_(reach),
+      start_(std::make_unique_for_overwrite<std::uint32_t[]>(grid.cells() + 2)),
+      items_(cell_of_point.size()) {
+  auto const along = static_cast<std::uint32_t>(grid.count[0]);
+  std::vector<char> used(grid.cells() / along);  // lines of cells, of which a part of all points leaves most empty
+  for (auto const cell : cell_of_point) used[cell / along] = 1;
+  // First start[c] is how many there are in cell c, then where it ends.
+  std::uint32_t *const start = start_.get() + 2, *line = start;
+  start_[0] = start_[1] = 0;
+  for (char const any : used) {
+    if (any) std::fill_n(line, along, 0U);
+    line += along;
+  }
+  for (auto const cell : cell_of_point) ++start[cell];
+  line = start;
+  for (std::uint32_t before = 0; char const any : used) {
+    if (any)
+      for (std::uint32_t c = 0; c < along; ++c) line[c] = before += line[c];
+    else
+      std::fill_n(line, along, before);
+    line += along;
+  }
   // start_[c + 1] runs through the places of cell c, and ends where cell c + 1 begins.
-  for (std::size_t i = 0; i < count; ++i) items_[start_[cell[i] + 1]++] = static_cast<std::uint32_t>(i);
-  start_.pop_back();
+  for (std::uint32_t i = 0; auto const cell : cell_of_point) items_[start_[cell + 1]++] = i++;
+}
+
+bool Cells::tell_cells_in(Grid const& other) const {
+  return !grid_.is_folded && std::ranges::equal(grid_.edge, other.edge);
+}
+
+void Cells::cells_in(Grid const& other, std::uint32_t* cell_of_item) const {
+  auto const along = static_cast<std::size_t>(grid_.count[0]);
+  std::vector<std::uint32_t> place(along);  // of each cell of a line, in a line of the other grid
+  for (std::size_t c = 0; c < along; ++c)
+    place[c] = static_cast<std::uint32_t>(other.folded(0, grid_.unfolded(0, static_cast<std::int64_t>(c))));
+  std::uint32_t const* start = start_.get();
+  for (std::int64_t k = 0; k < grid_.count[2]; ++k)
+    for (std::int64_t j = 0; j < grid_.count[1]; ++j, start += along) {
+      if (start[0] == start[along]) continue;
+      std::int64_t const line =
+          other.folded(2, grid_.unfolded(2, k)) * other.count[1] + other.folded(1, grid_.unfolded(1, j));
+      auto const begin = static_cast<std::uint32_t>(line * other.count[0]);
+      for (std::size_t c = 0; c < along; ++c)
+        for (std::uint32_t n = start[c]; n < start[c + 1]; ++n) cell_of_item[n] = begin + place[c];
+    }
 }
 
 }  // namespace boltzmann

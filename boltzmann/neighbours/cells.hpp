@@ -1,11 +1,16 @@
 // Cells: points sorted into a grid, so that what is near can be found without asking everyone.
 #pragma once
 
+#include <boltzmann/core/in_dimension.hpp>
+#include <boltzmann/core/threads.hpp>
 #include <boltzmann/neighbours/grid.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
+#include <span>
 #include <vector>
 
 namespace boltzmann {
@@ -13,11 +18,30 @@ namespace boltzmann {
 /// Between which coordinates points are.
 struct Bounds {
   std::array<double, 3> low{}, high{};
+  void take(int axis, double x) { low[axis] = std::min(low[axis], x), high[axis] = std::max(high[axis], x); }
+  void take(Bounds const& other) {
+    for (std::size_t a = 0; a < 3; ++a) {
+      low[a] = std::min(low[a], other.low[a]);
+      high[a] = std::max(high[a], other.high[a]);
+    }
+  }
   /// Of points at rows + i * stride, i < count; zero of none.
   static Bounds of(int dimension, double const* rows, std::size_t stride, std::size_t count);
 };
 
-/// The cell of each of `count` points, at rows + i * stride.
+/// The cells of `count` points, at(i) where point i is.
+template <class At>
+void find_cells(Grid const& of, std::size_t count, At const& at, std::uint32_t* cell, int threads = 1) {
+  constexpr std::size_t points_per_task = 2048;
+  in_dimension(of.dimension, [&](auto D) {
+    for_ranges(count, points_per_task, threads, [&](std::size_t begin, std::size_t end) {
+      Grid grid = of;  // known to nobody else, so that it stays in registers
+      grid.dimension = D;
+      for (std::size_t i = begin; i < end; ++i) cell[i] = static_cast<std::uint32_t>(grid.cell_of(at(i)));
+    });
+  });
+}
+/// The same, at rows + i * stride.
 std::vector<std::uint32_t> cells_of(Grid const& grid, double const* rows, std::size_t stride, std::size_t count,
                                     int threads = 1);
 
@@ -30,8 +54,10 @@ class Cells {
   Cells(int dimension, double const* rows, std::size_t stride, std::size_t count, double reach, int threads = 1)
       : Cells(grid_for(dimension, Bounds::of(dimension, rows, stride, count), count, reach), rows, stride, count, reach,
               threads) {}
-  /// The same in a grid that is given.
-  Cells(Grid const& grid, double const* rows, std::size_t stride, std::size_t count, double reach, int threads);
+  /// The same in a grid that is given, and of points whose cells in it are known.
+  Cells(Grid const& grid, double const* rows, std::size_t stride, std::size_t count, double reach, int threads)
+      : Cells(grid, cells_of(grid, rows, stride, count, threads), reach) {}
+  Cells(Grid const& grid, std::span<std::uint32_t const> cell_of_point, double reach);
 
   /// The grid for so many points of that extent.
   static Grid grid_for(int dimension, Bounds const& extent, std::size_t count, double reach);
@@ -40,7 +66,13 @@ class Cells {
   std::vector<std::uint32_t> const& items() const { return items_; }
   Grid const& grid() const { return grid_; }
   /// items()[start()[c]] ... items()[start()[c + 1] - 1] are in cell c.
-  std::vector<std::uint32_t> const& start() const { return start_; }
+  std::uint32_t const* start() const { return start_.get(); }
+  std::size_t bytes() const { return (grid_.cells() + 1 + items_.capacity()) * sizeof start_[0]; }
+
+  /// Whether cells in another grid, for the same points, follow from those in this one.
+  bool tell_cells_in(Grid const& other) const;
+  /// If so: those of items(), in their order.
+  void cells_in(Grid const& other, std::uint32_t* cell_of_item) const;
 
   /// Calls visit(begin, end) for ranges of items() that hold every point within `reach` of x (and some further ones).
   template <class Visit>
@@ -55,7 +87,8 @@ class Cells {
  private:
   Grid grid_;
   double reach_ = 0;
-  std::vector<std::uint32_t> start_{0, 0}, items_;
+  std::unique_ptr<std::uint32_t[]> start_ = std::make_unique<std::uint32_t[]>(2);
+  std::vector<std::uint32_t> items_;
 };
 
 }  // namespace boltzmann

@@ -121,11 +121,11 @@ void Neighbourhood::refresh_together(int threads) {
   follow(threads);
 }
 
-/// After lists have changed: those that they read now.
+/// After lists have changed: those that they read now. This rank's own rows are up to date.
 void Neighbourhood::follow_others() {
   find_needed(1);
   bool const placed = !division_->is_whole() && bring_rows();
-  follow(1, !placed);
+  for (auto& copy : copies_) copy.refresh_others(1, !placed);
 }
 
 /// Rows of others come from their owners. True if they are in the sorted copies already, and in the ensembles as they
@@ -150,30 +150,35 @@ WorkShares::Cuts const& Neighbourhood::cut(std::size_t e) {
   return cuts_[e] = shares_[e].balanced(copies_[e].ensemble().size());
 }
 
+/// What is done for particles of others and images that a rank knows, in entries of lists.
+std::size_t Neighbourhood::work_around(SortedCopy const& copy, std::size_t own) {
+  constexpr std::size_t of_another = 6, of_an_image = 3;
+  if (!copy.is_part()) return 0;
+  return of_another * (std::max(copy.known(), own) - own) + of_an_image * (copy.total() - copy.owned());
+}
+
 /// The entries of all ranks' lists, and what rows have taken.
 std::size_t Neighbourhood::take_work(std::size_t entries) {
-  // What is done for particles of others and images that are known here, in entries.
-  constexpr std::size_t of_another = 6, of_an_image = 3;
   if (!division_->leads(this)) return sum(entries);
   std::vector<WorkShares::Work> mine(copies_.size() + 1);
   mine.back()[0] = entries;
   for (std::size_t e = 0; e < copies_.size(); ++e) {
+    if (cuts_[e].empty()) continue;  // nobody asks
     std::size_t own = 0;
     for (auto const& [begin, end] : own_[e]) own += end - begin;
+    auto const end_of = [own](std::size_t part) {
+      return ((part + 1) * own + WorkShares::parts - 1) / WorkShares::parts;
+    };
     auto const of_rows = [&](auto const& work_of) {
-      std::size_t n = 0, part = 0;
+      std::size_t n = 0, part = 0, end_of_part = end_of(0);
       for (auto const& [begin, end] : own_[e])
         for (std::size_t k = begin; k < end; ++k, ++n) {
-          while (n * WorkShares::parts >= (part + 1) * own) ++part;
+          while (n >= end_of_part) end_of_part = end_of(++part);
           mine[e][part] += work_of(k);
         }
     };
     of_rows([](std::size_t) { return static_cast<std::size_t>(work_of_a_row); });
-    if (is_part()) {
-      SortedCopy const& copy = copies_[e];
-      auto const around = of_another * (copy.known() - own) + of_an_image * (copy.total() - copy.owned());
-      for (auto& work : mine[e]) work += around / WorkShares::parts;
-    }
+    for (auto& work : mine[e]) work += work_around(copies_[e], own) / WorkShares::parts;
     for (auto const& list : lists_)
       if (list.target == &copies_[e])
         of_rows([lengths = list.list.lengths(list_rings - 1)](std::size_t k) { return lengths[k]; });
@@ -185,8 +190,9 @@ std::size_t Neighbourhood::take_work(std::size_t entries) {
       std::memcpy(&work[r], all[r].data() + e * sizeof work[r], sizeof work[r]);
   };
   for (std::size_t e = 0; e < copies_.size(); ++e) {
+    if (cuts_[e].empty()) continue;
     of_copy(e);
-    if (!cuts_[e].empty()) shares_[e].took(cuts_[e], work);
+    shares_[e].took(cuts_[e], work);
   }
   of_copy(copies_.size());
   return std::transform_reduce(work.begin(), work.end(), std::size_t{0}, std::plus{},
@@ -289,14 +295,12 @@ std::vector<std::vector<char>> Neighbourhood::rows_in_lists(int threads) const {
 /// Which rows of others this rank reads; their owners hear of it.
 void Neighbourhood::find_needed(int threads) {
   row_of_.resize(copies_.size());
-  std::vector<std::vector<std::uint32_t>> known;
   for (std::size_t e = 0; e < copies_.size(); ++e) {
     SortedCopy const& copy = copies_[e];
-    auto& rows = known.emplace_back(copy.known());
-    for (std::size_t n = 0; n < rows.size(); ++n) rows[n] = copy.known(n);
     row_of_[e].resize(copy.owned());
     std::uint32_t* const row_of = row_of_[e].data();
-    for (std::uint32_t const* order = copy.order(); auto const k : rows) row_of[order[k]] = k;
+    std::uint32_t const* const order = copy.order();
+    for (std::size_t n = 0; n < copy.known(); ++n) row_of[order[copy.known(n)]] = copy.known(n);
   }
   auto in_lists = rows_in_lists(threads);
   Division::Add const add = [&](AnyEnsemble const& ensemble, std::uint32_t i) {
@@ -314,17 +318,23 @@ void Neighbourhood::find_needed(int threads) {
     std::vector<Stretch> rows;
     needed.push_back({const_cast<AnyEnsemble*>(&copy.ensemble()), {}});
     auto& numbers = needed.back().numbers;
+    std::uint32_t const* const order = copy.order();
     auto own = own_[e].begin();
     auto const last_own = own_[e].end();
-    for (std::uint32_t const* order = copy.order(); auto const k : known[e]) {
+    for (std::size_t n = 0, all = copy.known(); n < all;) {
+      std::size_t const k = copy.known(n);
+      if (own != last_own && own->begin == k) {  // all of them are known
+        n += own->end - own->begin;
+        ++own;
+        continue;
+      }
+      ++n;
       if (!read[k]) continue;
-      while (own != last_own && own->end <= k) ++own;
-      if (own != last_own && own->begin <= k) continue;
       numbers.push_back(order[k]);
       if (!rows.empty() && rows.back().end == k)
         ++rows.back().end;
       else
-        rows.push_back({k, k + std::size_t{1}});
+        rows.push_back({k, k + 1});
     }
     copy.only(own_[e], rows, in_lists[e]);
   }

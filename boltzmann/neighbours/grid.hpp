@@ -18,6 +18,8 @@ struct Grid {
   /// folded, or so few that a range may be all of them, it would begin elsewhere for another block.
   bool by_number[3] = {false, false, false};
   double edge[3] = {1, 1, 1}, inverse_edge[3] = {1, 1, 1};
+  std::int64_t lowest[3] = {0, 0, 0};  ///< cells of points, along each axis, begin here
+  bool is_folded = false;              ///< points in one cell may be far apart
 
   std::size_t cells() const { return static_cast<std::size_t>(count[0] * count[1] * count[2]); }
   [[gnu::always_inline]] std::size_t cell_of(double const* x) const {
@@ -40,6 +42,20 @@ struct Grid {
   }
   bool folds(int axis, double low, double high) const {
     return static_cast<double>(count[axis]) < cells_of(axis, low, high);
+  }
+
+  /// The cell onto which one is folded along an axis.
+  [[gnu::always_inline]] std::int64_t folded(int axis, std::int64_t cell) const {
+    std::int64_t const n = count[axis];
+    if (cell >= 0 && cell < n) return cell;
+    if (cell < 0 && cell >= -n) return cell + n;
+    std::int64_t const rest = cell % n;
+    return rest < 0 ? rest + n : rest;
+  }
+  /// And, where cells are not folded, the one of points that is folded onto this one.
+  std::int64_t unfolded(int axis, std::int64_t cell) const {
+    std::int64_t const n = count[axis], turned = (cell - lowest[axis]) % n;
+    return lowest[axis] + (turned < 0 ? turned + n : turned);
   }
 
   /// The runs of cells that near() finds at most.
@@ -98,13 +114,6 @@ struct Grid {
  private:
   static constexpr double most = 1e15;
 
-  [[gnu::always_inline]] std::int64_t folded(int axis, std::int64_t cell) const {
-    std::int64_t const n = count[axis];
-    if (cell >= 0 && cell < n) return cell;
-    if (cell < 0 && cell >= -n) return cell + n;
-    std::int64_t const rest = cell % n;
-    return rest < 0 ? rest + n : rest;
-  }
   /// How many of the cells of a range, which begins at `from`, are visited last.
   [[gnu::always_inline]] std::int64_t first_turn(int axis, std::int64_t from, std::int64_t to) const {
     if (!by_number[axis]) return 0;

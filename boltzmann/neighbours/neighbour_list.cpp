@@ -51,7 +51,10 @@ void find(NearKernel kernel, NearTask const& task, std::size_t begin, std::size_
     begin = kernel(task, begin, end, out);
     if (begin == end) return;
     if (out.used + out.wanted > index.size()) {
-      index.reserve(std::max(out.used + out.wanted, index.size() + index.size() / 32));  // and no more
+      // For the rest as for those that have been found, and no more.
+      std::size_t const found = begin - out.first, rest = end - begin;
+      std::size_t const more = found > 0 ? out.used * rest / found + out.used / 32 : 0;
+      index.reserve(out.used + std::max(out.wanted, more) + out.wanted);
       index.resize(index.capacity());
     }
     if (out.wanted_scratch > out.scratch) scratch.lend(out, out.wanted_scratch + out.wanted_scratch / 2);
@@ -68,8 +71,15 @@ void NeighbourList::build(SortedCopy const& target, SortedCopy const& source, do
   if (!filter_.start.empty() && filter_.start.size() != all + 1)
     throw Error(fmt::format("ensemble '{}' had {} particles when its bonded pairs were told, now it has {}",
                             target.ensemble().name(), filter_.start.size() - 1, all));
-  row_.resize(all);
-  length_.assign(list_rings * all, 0);
+  if (size() != all) {
+    row_.resize(all);
+    length_.assign(list_rings * all, 0);
+  } else {
+    for (auto const& [begin, end] : found_)
+      for (int r = 0; r < list_rings; ++r)
+        std::fill(length_.data() + r * all + begin, length_.data() + r * all + end, 0U);
+  }
+  found_.clear();
   replaced_.clear();
   more_.clear();
   entries_ = 0;
@@ -83,6 +93,7 @@ void NeighbourList::build_more(SortedCopy const& target, SortedCopy const& sourc
 
 void NeighbourList::find_rows(SortedCopy const& target, SortedCopy const& source, std::vector<Stretch> const& rows,
                               std::vector<std::vector<std::uint32_t>>& chunks, int threads, char* marks) {
+  found_.insert(found_.end(), rows.begin(), rows.end());
   NearTask const task = task_of(target, source, cutoff_, skin_);
   NearKernel const kernel = neighbour_kernels().near[target.ensemble().dimension() - 1];
   std::vector<Stretch> parts;  // each with memory of its own

@@ -68,6 +68,7 @@ class NeighbourList {
   std::size_t entries_ = 0;
   std::vector<std::uint32_t*> row_;
   std::vector<std::uint32_t> length_, rebuilt_;
+  std::vector<Stretch> found_;                      // rows whose lists are not empty
   std::vector<std::vector<std::uint32_t>> chunks_;  // their size is room, not content
   std::deque<std::vector<std::vector<std::uint32_t>>> more_;
   std::deque<std::vector<std::uint32_t>> replaced_;  // rows that have outgrown their place

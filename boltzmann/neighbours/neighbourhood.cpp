@@ -199,8 +199,9 @@ bool Neighbourhood::move_beyond(double square, std::size_t most) {
   std::vector<Moved> moved;
   std::size_t count = 0;
   for (auto& copy : copies_) {
-    moved.push_back({&copy, copy.beyond(square, most + 1 - std::min(count, most))});
-    count += moved.back().rows.size();
+    auto rows = copy.beyond(square, most);
+    count += rows ? rows->size() : most + 1;
+    moved.push_back({&copy, std::move(rows).value_or(std::vector<std::uint32_t>())});
   }
   count = sum(count);
   if (count > most) return false;

@@ -166,6 +166,7 @@ class Neighbourhood {
   char* marks(SortedCopy const* source);
   void complete(int threads);
   WorkShares::Cuts const& cut(std::size_t e);
+  static std::size_t work_around(SortedCopy const& copy, std::size_t own);
   std::size_t take_work(std::size_t entries);
   bool is_part() const { return !copies_.empty() && copies_.front().is_part(); }
 

@@ -2,6 +2,7 @@
 #include <boltzmann/neighbours/sorted_copy.hpp>
 
 #include <boltzmann/core/error.hpp>
+#include <boltzmann/core/in_dimension.hpp>
 #include <boltzmann/core/threads.hpp>
 #include <boltzmann/neighbours/neighbour_kernels.hpp>
 
@@ -107,9 +108,9 @@ void SortedCopy::build(double reach, std::span<double const> references, Box::Ed
   begin_build(reach, edges, slide);
   part_ = false;
   known_.clear();
-  sort(reach, references, threads);
+  Cells const sorted = sort(reach, references, threads);
   add_ghosts(nullptr, threads);
-  finish_build(nullptr, threads);
+  finish_build(sorted, nullptr, threads);
   everything();
 }
 
@@ -118,51 +119,51 @@ void SortedCopy::build_part(double reach, Part part, int threads) {
   part_ = true;
   known_ = std::move(part.rows);
   std::size_t const all = ensemble_->size();
-  auto const D = static_cast<std::size_t>(box_->dimension());
   order_.resize(all);
   references_.resize(4 * all);
   steps_.resize(4 * all);
-  built_by_number_.resize(D * all);
-  for_ranges(known_.size(), refresh_grain, threads, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t n = begin; n < end; ++n) {
-      std::size_t const item = part.order[n];
-      std::uint32_t const i = part.particles[item];
-      double const* const reference = part.references.get() + D * item;
-      for (std::size_t a = 0; a < D; ++a) built_by_number_[D * i + a] = reference[a];
-      order_[known_[n]] = i;
-      take_reference(known_[n], reference);
-    }
+  built_by_number_.resize(static_cast<std::size_t>(box_->dimension()) * all);
+  in_dimension(box_->dimension(), [&](auto D) {
+    for_ranges(known_.size(), refresh_grain, threads, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t n = begin; n < end; ++n) {
+        std::size_t const item = part.sorted.items()[n];
+        std::uint32_t const i = part.particles[item];
+        double const* const reference = part.references.get() + D * item;
+        for (int a = 0; a < D; ++a) built_by_number_[D * std::size_t{i} + a] = reference[a];
+        order_[known_[n]] = i;
+        take_reference<D>(known_[n], reference);
+      }
+    });
   });
   add_ghosts(&part, threads);
-  finish_build(&part, threads);
+  finish_build(part.sorted, &part.grid, threads);
 }
 
 double SortedCopy::reference_of(double x, int axis) const { return box_->periodic(axis) ? box_->wrapped(x, axis) : x; }
 
-/// The reference of a row, D numbers.
+template <int D>
 void SortedCopy::take_reference(std::size_t k, double const* reference) {
-  int const dimension = box_->dimension();
   double* const to = references_.data() + 4 * k;
   std::int32_t* const steps = steps_.data() + 4 * k;
-  to[0] = to[1] = to[2] = to[3] = 0;
-  steps[0] = steps[1] = steps[2] = steps[3] = 0;
-  for (int a = 0; a < dimension; ++a) to[a] = reference[a], steps[a] = in_steps(reference[a], reach_);
+  for (int a = 0; a < 4; ++a) to[a] = a < D ? reference[a] : 0, steps[a] = a < D ? in_steps(to[a], reach_) : 0;
 }
 
 std::unique_ptr<double[]> SortedCopy::references_of(std::span<std::uint32_t const> particles) const {
-  auto const D = static_cast<std::size_t>(box_->dimension());
-  auto const edges = box_->edges();
-  auto references = std::make_unique_for_overwrite<double[]>(D * particles.size());
-  double* to = references.get();
-  for (std::uint32_t const i : particles) {
-    double const* const row = ensemble_->row(i);
-    for (std::size_t a = 0; a < D; ++a) {
-      double const x = row[a];
-      bool const inside = x >= edges[a] && x < edges[3 + a];
-      if (!inside && !std::isfinite(x)) not_finite(*ensemble_, i);
-      *to++ = inside ? x : reference_of(x, static_cast<int>(a));
+  auto references =
+      std::make_unique_for_overwrite<double[]>(particles.size() * static_cast<std::size_t>(box_->dimension()));
+  in_dimension(box_->dimension(), [&](auto D) {
+    auto const edges = box_->edges();
+    double* to = references.get();
+    for (std::uint32_t const i : particles) {
+      double const* const row = ensemble_->row(i);
+      for (int a = 0; a < D; ++a) {
+        double const x = row[a];
+        bool const inside = x >= edges[a] && x < edges[3 + a];
+        if (!inside && !std::isfinite(x)) not_finite(*ensemble_, i);
+        *to++ = inside ? x : reference_of(x, a);
+      }
     }
-  }
+  });
   return references;
 }
 
@@ -202,11 +203,11 @@ void SortedCopy::begin_build(double reach, Box::Edges const& edges, double slide
   free_.clear();
 }
 
-void SortedCopy::finish_build(Part const* part, int threads) {
+void SortedCopy::finish_build(Cells const& sorted, Grid const* grid, int threads) {
   if (total() >= max_rows) too_many_rows(static_cast<double>(total()));
   capacity_ = 0;
   make_room(total() + 1);
-  sort_all(part, threads);
+  sort_all(sorted, grid, threads);
   for (auto& column : moved_position_) column.assign(candidate_padding, 0);
   moved_item_.assign(candidate_padding, 0);
   // Nowhere, as the sentinel will stay, until they are refreshed: whoever asks then hears that all have changed.
@@ -262,15 +263,19 @@ double SortedCopy::sorting_reach(double reach, Box::Edges const& edges) const {
   return std::max(reach, 2.5 * std::pow(volume / size, 1.0 / box_->dimension()));
 }
 
-void SortedCopy::sort(double reach, std::span<double const> references, int threads) {
-  int const dimension = box_->dimension();
-  double const cell = sorting_reach(reach, built_edges_);
-  order_ = Cells(dimension, references.data(), dimension, ensemble_->size(), cell, threads).items();
+Cells SortedCopy::sort(double reach, std::span<double const> references, int threads) {
+  auto const stride = static_cast<std::size_t>(box_->dimension());
+  Cells sorted(box_->dimension(), references.data(), stride, ensemble_->size(), sorting_reach(reach, built_edges_),
+               threads);
+  order_ = sorted.items();
   references_.resize(4 * owned());
   steps_.resize(4 * owned());
-  for_ranges(owned(), refresh_grain, threads, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) take_reference(k, references.data() + order_[k] * dimension);
+  in_dimension(box_->dimension(), [&](auto D) {
+    for_ranges(owned(), refresh_grain, threads, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t k = begin; k < end; ++k) take_reference<D>(k, references.data() + order_[k] * stride);
+    });
   });
+  return sorted;
 }
 
 std::uint32_t SortedCopy::code_of(Turns const& turns) const {
@@ -335,7 +340,7 @@ void SortedCopy::add_ghosts(Part const* part, int threads) {  // long: counts an
   };
   std::vector<Found> parts((known() + refresh_grain - 1) / refresh_grain);
   int const dimension = box_->dimension();
-  auto const may_be_near = [&](int a, double from, double to) {
+  auto const is_near_any = [&](int a, double from, double to) {
     if (!part) return true;
     auto const& [places, axes, square] = part->near;
     double const wide = std::sqrt(square) * (1 + 1e-12);
@@ -355,44 +360,42 @@ void SortedCopy::add_ghosts(Part const* part, int threads) {  // long: counts an
     if (most == 0) continue;
     double const begin = built_edges_[a], end = built_edges_[3 + a];
     bool const any = !box_->periodic(a) || most > 1;
-    if (any || may_be_near(a, end, end + reach_)) low[a] = begin + reach_;
-    if (any || may_be_near(a, begin - reach_, begin)) high[a] = end - reach_;
+    if (any || is_near_any(a, end, end + reach_)) low[a] = begin + reach_;
+    if (any || is_near_any(a, begin - reach_, begin)) high[a] = end - reach_;
   }
   for_ranges(known(), refresh_grain, threads, [&](std::size_t begin, std::size_t end) {
     Found& found = parts[begin / refresh_grain];  // of one thread: whole ranges, or all of them in the first
+    // Known to nobody else, so that they stay in registers.
+    Images const images = images_;
+    double const reach = reach_, *const references = references_.data();
+    std::array<double, 3> const least = low, greatest = high;
+    NearPlaces const* const near = part ? &part->near : nullptr;
     for (std::size_t n = begin; n < end; ++n) {
       std::uint32_t const k = known(n);
-      double const* const x = references_.data() + 4 * std::size_t{k};
-      if (x[0] > low[0] && x[0] < high[0] && x[1] > low[1] && x[1] < high[1] && x[2] > low[2] && x[2] < high[2])
-        continue;
+      double const* const x = references + 4 * std::size_t{k};
+      auto const is_inside = [&](std::size_t a) { return x[a] > least[a] && x[a] < greatest[a]; };
+      if (is_inside(0) && is_inside(1) && is_inside(2)) continue;
       auto const take = [&](Turns const& turns) {
         if (turns == Turns{}) return;
         found.source.push_back(k);
         found.turns.push_back(code_of(turns));
       };
-      if (!part) {
-        images_.each(x, reach_, [&](Turns const& turns, auto const&) { take(turns); });
+      if (box_->sheared()) {
+        images.each(x, reach, [&](Turns const& turns, auto const&) { take(turns); });
         continue;
       }
-      std::array<Images::Range, 3> range;
-      for (int a = 0; a < dimension; ++a) range[a] = images_.turns_within(a, reach_, x[a]);
-      std::array<double, 3> at{x[0], x[1], x[2]};
-      Turns turns{};
-      auto const along = [&](int a, auto const& each) {
-        for (turns[a] = range[a].first; turns[a] <= range[a].last; ++turns[a]) {
-          at[a] = images_.at(a, turns[a], x[a]);
-          each();
-        }
-      };
+      std::array<Images::Range, 3> range{};
+      for (std::size_t a = 0; a < 3; ++a)
+        if (!is_inside(a)) range[a] = images.turns_within(static_cast<int>(a), reach, x[a]);
+      bool const any_along_first = range[0].first != range[0].last;
       // Places are told apart along the first axis in 1D alone.
-      along(2, [&] {
-        along(1, [&] {
-          if (dimension > 1 && !part->near(at.data())) return;
-          along(0, [&] {
-            if (dimension > 1 || part->near(at.data())) take(turns);
-          });
-        });
-      });
+      for (int t2 = range[2].first; t2 <= range[2].last; ++t2)
+        for (int t1 = range[1].first; t1 <= range[1].last; ++t1) {
+          if (t1 == 0 && t2 == 0 && !any_along_first) continue;
+          if (near && dimension > 1 && !near->contains(images.at(1, t1, x[1]), images.at(2, t2, x[2]))) continue;
+          for (int t0 = range[0].first; t0 <= range[0].last; ++t0)
+            if (!near || dimension > 1 || near->contains(images.at(0, t0, x[0]), 0)) take({t0, t1, t2});
+        }
     }
   });
   for (auto const& found : parts) {
@@ -429,27 +432,36 @@ void SortedCopy::move_ghosts(std::size_t first_block, std::size_t last_block, st
   neighbour_kernels().images(task, begin, end);
 }
 
-/// All rows that are known, or of a part those that may be found, in its cells.
-void SortedCopy::sort_all(Part const* part, int threads) {
-  int const dimension = box_->dimension();
-  std::vector<std::uint32_t> found;  // rows; without a part all of them
-  if (part)
-    for (std::uint32_t const k : known_)
-      if (part->near(references_.data() + 4 * std::size_t{k})) found.push_back(k);
-  std::size_t const rows = part ? found.size() : owned(), count = rows + ghost_source_.size();
-  auto const row = [&](std::size_t n) { return part ? std::size_t{found[n]} : n; };
-  auto const at = std::make_unique_for_overwrite<double[]>(4 * count);
-  for_ranges(count, refresh_grain, threads, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t n = begin; n < std::min(rows, end); ++n)
-      std::copy_n(references_.data() + 4 * row(n), 4, at.get() + 4 * n);
-    for (std::size_t n = std::max(rows, begin); n < end; ++n) {
-      double const* const source = references_.data() + 4 * std::size_t{ghost_source_[n - rows]};
-      Turns const& turns = turns_[ghost_turns_[n - rows]];
-      for (int a = 0; a < dimension; ++a) at[4 * n + a] = images_.at(a, turns, source[a]);
+/// All rows that are known and their images, in the cells of this grid or of the one that fits. Cells of rows follow
+/// from those which have sorted them, where both have the same edges.
+void SortedCopy::sort_all(Cells const& sorted, Grid const* grid, int threads) {
+  std::size_t const rows = known(), images = ghost_source_.size(), count = rows + images;
+  auto const D = static_cast<std::size_t>(box_->dimension());
+  auto const at = std::make_unique_for_overwrite<double[]>(D * images);
+  for_ranges(images, refresh_grain, threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t g = begin; g < end; ++g) {
+      double const* const source = references_.data() + 4 * std::size_t{ghost_source_[g]};
+      Turns const& turns = turns_[ghost_turns_[g]];
+      for (std::size_t a = 0; a < D; ++a) at[D * g + a] = images_.at(static_cast<int>(a), turns, source[a]);
     }
   });
-  cells_ = part ? Cells(part->grid, at.get(), 4, count, reach_, threads)
-                : Cells(dimension, at.get(), 4, count, reach_, threads);
+  Grid fitting;
+  if (!grid) {
+    Bounds bounds = Bounds::of(box_->dimension(), references_.data(), 4, rows);
+    if (images > 0) bounds.take(Bounds::of(box_->dimension(), at.get(), D, images));
+    fitting = Cells::grid_for(box_->dimension(), bounds, count, reach_);
+    grid = &fitting;
+  }
+  std::vector<std::uint32_t> cell(count);
+  if (sorted.tell_cells_in(*grid))
+    sorted.cells_in(*grid, cell.data());
+  else
+    find_cells(
+        *grid, rows, [&](std::size_t n) { return references_.data() + 4 * std::size_t{known(n)}; }, cell.data(),
+        threads);
+  find_cells(
+      *grid, images, [&](std::size_t g) { return at.get() + D * g; }, cell.data() + rows, threads);
+  cells_ = Cells(*grid, cell, reach_);
   auto const& items = cells_.items();
   for (int a = 0; a < 3; ++a) position_[a].resize(count + candidate_padding);
   item_.resize(count + candidate_padding);
@@ -457,12 +469,12 @@ void SortedCopy::sort_all(Part const* part, int threads) {
     for (std::size_t s = begin; s < end; ++s) {
       std::size_t const n = items[s];
       if (n < rows) {
-        std::size_t const k = row(n);
+        std::size_t const k = known(n);
         item_[s] = item_of_row(k);
-        for (int a = 0; a < dimension; ++a) position_[a][s] = steps_[4 * k + a];
+        for (std::size_t a = 0; a < D; ++a) position_[a][s] = steps_[4 * k + a];
       } else {
         item_[s] = item_of_row(n - rows + owned() + 1);
-        for (int a = 0; a < dimension; ++a) position_[a][s] = in_steps(at[4 * n + a], reach_);
+        for (std::size_t a = 0; a < D; ++a) position_[a][s] = in_steps(at[D * (n - rows) + a], reach_);
       }
     }
   });
@@ -516,14 +528,6 @@ bool SortedCopy::refresh(int threads, bool others) {
     }
   });
   if (!finite) find_not_finite();
-  if (others)
-    for_stretches(others_, threads, [&](Stretch const* first, Stretch const* last) {
-      for (; first != last; ++first)
-        if (sheared)
-          refresh_sheared(task, first->begin, first->end);
-        else
-          kernel(task, first->begin, first->end);
-    });
   if (box_->any_wall() || sheared) {
     auto const now = box_->edges();
     if (now != edges_ || box_->slide() != slide_) changed = true;
@@ -531,8 +535,22 @@ bool SortedCopy::refresh(int threads, bool others) {
     slide_ = box_->slide();
     find_image_maps();
   }
-  refresh_images(0, followed_blocks(), threads);
+  refresh_others(threads, others);
   return changed;
+}
+
+void SortedCopy::refresh_others(int threads, bool others) {
+  RefreshTask const task = refresh_task();
+  RefreshKernel const kernel = neighbour_kernels().refresh;
+  if (others)
+    for_stretches(others_, threads, [&](Stretch const* first, Stretch const* last) {
+      for (; first != last; ++first)
+        if (box_->sheared())
+          refresh_sheared(task, first->begin, first->end);
+        else
+          kernel(task, first->begin, first->end);
+    });
+  refresh_images(0, followed_blocks(), threads);
 }
 
 void SortedCopy::refresh_images(std::size_t first_block, std::size_t last_block, int threads) {
@@ -568,15 +586,18 @@ double SortedCopy::largest2() const {
   return moved == 0 ? largest : (std::sqrt(largest) + moved) * (std::sqrt(largest) + moved);
 }
 
-std::vector<std::uint32_t> SortedCopy::beyond(double square, std::size_t most) const {
+std::optional<std::vector<std::uint32_t>> SortedCopy::beyond(double square, std::size_t most) const {
   std::vector<std::uint32_t> rows;
   bool const sheared = box_->sheared();
   if (double const moved = images_moved(); moved > 0) {
     double const left = std::sqrt(square) - moved;
     square = left < 0 ? -1 : left * left;
   }
+  auto const may_have = [square](double largest2) { return largest2 > square; };
+  // At least one of each piece.
+  if (static_cast<std::size_t>(std::ranges::count_if(largest2_, may_have)) > most) return {};
   for (std::size_t b = 0; b < largest2_.size(); ++b) {
-    if (largest2_[b] <= square) continue;
+    if (!may_have(largest2_[b])) continue;
     for (std::size_t k = pieces_[b].begin; k < pieces_[b].end; ++k) {
       double moved2 = 0;
       for (int a = 0; a < box_->dimension(); ++a) {
@@ -585,8 +606,8 @@ std::vector<std::uint32_t> SortedCopy::beyond(double square, std::size_t most) c
       }
       if (sheared) moved2 = placed(k, rows_.data() + row_block * k).moved2;
       if (moved2 <= square * (1 - 1e-12)) continue;
+      if (rows.size() == most) return {};
       rows.push_back(static_cast<std::uint32_t>(k));
-      if (rows.size() == most) return rows;
     }
   }
   return rows;
@@ -702,7 +723,7 @@ std::uint32_t SortedCopy::learn(std::uint32_t row_of_all, std::uint32_t particle
   }
   known_.insert(place, k);
   order_[k] = particle;
-  take_reference(k, reference);
+  in_dimension(box_->dimension(), [&](auto D) { take_reference<D>(k, reference); });
   return k;
 }
 
@@ -744,7 +765,7 @@ std::vector<double> SortedCopy::built_references() const {
 NearTask SortedCopy::near_task() const {
   NearTask task;
   task.grid = &cells_.grid();
-  task.start = cells_.start().data();
+  task.start = cells_.start();
   task.steps_per_length = steps_of_reach / reach_;
   for (int a = 0; a < 3; ++a) {
     task.sorted.position[a] = position_[a].data();
@@ -760,8 +781,8 @@ NearTask SortedCopy::near_task() const {
 std::size_t SortedCopy::bytes() const {
   auto const of = [](auto const& vector) { return vector.capacity() * sizeof(vector[0]); };
   return of(order_) + of(known_) + of(built_by_number_) + of(rows_) + of(references_) + of(steps_) + of(ghost_source_) +
-         of(ghost_turns_) + of(largest2_) + of(cells_.items()) + of(cells_.start()) + of(position_[0]) +
-         of(position_[1]) + of(position_[2]) + of(item_);
+         of(ghost_turns_) + of(largest2_) + cells_.bytes() + of(position_[0]) + of(position_[1]) + of(position_[2]) +
+         of(item_);
 }
 
 }  // namespace boltzmann

@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <memory>
 #include <new>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -68,9 +69,11 @@ class SortedCopy {
     std::array<int, 2> axes{};
     double square = 0;  ///< of the distance
 
-    /// Of a position, three numbers.
-    bool operator()(double const* x) const {
-      double const first = x[axes[0]], second = x[axes[1]];
+    void add(auto const& first, auto const& second) {
+      places.push_back({{first.low, second.low}, {first.high, second.high}});
+    }
+    /// Whether a position is near, by its coordinates along these axes.
+    bool contains(double first, double second) const {
       for (Place const& place : places) {
         double const a = out_of(first, place.low[0], place.high[0]), b = out_of(second, place.low[1], place.high[1]);
         if (a * a + b * b <= square) return true;
@@ -86,9 +89,9 @@ class SortedCopy {
     std::vector<std::uint32_t> particles;  ///< that it knows
     std::unique_ptr<double[]> references;  ///< of these, dimension() numbers each
     std::vector<std::uint32_t> rows;       ///< that they have, ascending
-    std::vector<std::uint32_t> order;      ///< rows[n] is that of particles[order[n]]
+    Cells sorted;                          ///< rows[n] is that of particles[sorted.items()[n]]
     Grid grid;                             ///< for the references of all rows, images included
-    /// Where those are found whose neighbours are sought here. Rows and images elsewhere are in no cell.
+    /// Where those are found whose neighbours are sought here. There are no images elsewhere.
     NearPlaces near;
   };
   /// The build of which this is a part: rows are sorted among themselves as all are, the others stay unknown, and there
@@ -123,6 +126,8 @@ class SortedCopy {
   /// the walls are now. Extra blocks stay as they are. True if a position, or a wall's place, has changed since the
   /// last time. PhysicsFailure if a position is not finite. `others`: also those that others advance (only()).
   bool refresh(int threads, bool others = true);
+  /// Of that the rows that others advance, if asked for, and the images.
+  void refresh_others(int threads, bool others);
   /// Owned rows as particles have come from elsewhere, `from` one after the other: rows[0], rows[1], ..., of each as
   /// many blocks as are followed.
   void place(std::span<std::uint32_t const> rows, double const* from);
@@ -144,9 +149,9 @@ class SortedCopy {
   /// Square of the largest displacement from a reference at the last refresh, what walls have moved since the build
   /// included: no pair has come closer by more than twice its root.
   double largest2() const;
-  /// The owned rows that were further (in this sense) than sqrt(square) from their references at the last refresh; no
-  /// more than `most`.
-  std::vector<std::uint32_t> beyond(double square, std::size_t most) const;
+  /// The owned rows that were further (in this sense) than sqrt(square) from their references at the last refresh, if
+  /// they are no more than `most`.
+  std::optional<std::vector<std::uint32_t>> beyond(double square, std::size_t most) const;
 
   /// Gives owned rows new references: where they are now, or (the second form, rows of 3 numbers) given positions.
   /// They leave the sorted order's cells, and are asked by everyone who looks for neighbours (so let them be few).
@@ -222,11 +227,13 @@ class SortedCopy {
   [[noreturn]] void too_many_rows(double count) const;
   double reference_of(double x, int axis) const;
   void begin_build(double reach, Box::Edges const& edges, double slide);
-  void finish_build(Part const* part, int threads);
+  void finish_build(Cells const& sorted, Grid const* grid, int threads);
+  /// The reference of a row, D numbers.
+  template <int D>
   void take_reference(std::size_t k, double const* reference);
-  void sort(double reach, std::span<double const> references, int threads);
+  Cells sort(double reach, std::span<double const> references, int threads);
   void add_ghosts(Part const* part, int threads);
-  void sort_all(Part const* part, int threads);
+  void sort_all(Cells const& sorted, Grid const* grid, int threads);
   void make_room(std::size_t rows);
   RefreshTask refresh_task() const;
   std::size_t all_blocks() const { return blocks() + extra_blocks_; }

@@ -1,5 +1,6 @@
 // Errors of P3M by Hockney and Eastwood's formulas, and the search for the cheapest parameters of a wanted error.
 #include <boltzmann/core/error.hpp>
+#include <boltzmann/core/in_dimension.hpp>
 #include <boltzmann/core/pack.hpp>
 #include <boltzmann/core/vector.hpp>
 #include <boltzmann/schemes/mesh/ewald.hpp>
@@ -463,16 +464,13 @@ double p3m_error_mesh(P3mSystem const& system, int order, MeshCells const& cells
 P3mEnergyTerms p3m_energy_terms(P3mSystem const& system, P3mParameters const& parameters) {
   check(system, "p3m_energy_terms");
   P3mInfluence const influence(system.dimension, system.edges, parameters.order, parameters.cells, parameters.alpha);
-  auto const of_one = [&]<int D>(std::integral_constant<int, D>) {
+  double const itself = in_dimension(system.dimension, [&]<int D>(std::integral_constant<int, D>) {
     Vector<D> const place{};
     Vector<D> edges;
     double const strength = 1;
     for (int a = 0; a < D; ++a) edges[a] = system.edges[a];
     return ewald_sums<D>({&place, 1}, {&strength, 1}, edges, 1).potential[0];
-  };
-  double const itself = system.dimension == 1   ? of_one(std::integral_constant<int, 1>{})
-                        : system.dimension == 2 ? of_one(std::integral_constant<int, 2>{})
-                                                : of_one(std::integral_constant<int, 3>{});
+  });
   double const background = 1 / (4 * square(parameters.alpha) * volume_of(system));
   double const beyond =
       tail_of_near_potential(system.dimension, parameters.alpha, parameters.cutoff) / volume_of(system);

@@ -1,11 +1,11 @@
 // What a SmoothScheme has loaded, and what its sources share. Private to this room.
 #pragma once
 
+#include <boltzmann/core/in_dimension.hpp>
 #include <boltzmann/schemes/smooth/smooth_scheme.hpp>
 
 #include <limits>
 #include <memory>
-#include <type_traits>
 #include <vector>
 
 namespace boltzmann {
@@ -41,13 +41,6 @@ inline constexpr std::size_t particle_grain = material_grain;
 inline constexpr double skin_of_range = 0.08;
 inline constexpr double room_to_grow = 1.05;  // lists reach so much further than ranges that vary
 inline constexpr double infinite = std::numeric_limits<double>::infinity();
-
-template <class Function>
-decltype(auto) in_dimension(int dimension, Function const& function) {
-  if (dimension == 1) return function(std::integral_constant<int, 1>{});
-  if (dimension == 2) return function(std::integral_constant<int, 2>{});
-  return function(std::integral_constant<int, 3>{});
-}
 
 }  // namespace detail
 }  // namespace boltzmann
