@@ -413,8 +413,9 @@ class Reader {
     std::string const name = quoted(hint.empty() ? found : wider);
     if (hint.empty()) hint = did_you_mean(found, words);
     if (hint.empty() && found == "e") hint = "; powers of e are exp(x)";
-    return {begin, fmt::format("unknown name '{}'; there are {}{}", name, some_of(known),
-                               hint.empty() ? names_.otherwise : hint)};
+    if (hint.empty() && names_.with_parameters && found.find('.') == std::string::npos)
+      hint = fmt::format("; a number of your own stands in parameters = {{ {} = 1 }}", quoted(found));
+    return {begin, fmt::format("unknown name '{}'; there are {}{}", name, some_of(known), hint)};
   }
   std::optional<FormulaValue> value_of(std::string const& name) {
     if (auto const at = names_.values.find(name); at != names_.values.end()) return at->second;

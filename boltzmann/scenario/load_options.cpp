@@ -30,7 +30,7 @@ OptionTable make_members() {  // long: a table, a row for each key
           "moved at random, by at most this part of the spacing along each axis");
   all.add("low", &L::low, vector(dimensions::length), "where the lattice begins", "the box");
   all.add("high", &L::high, vector(dimensions::length), "where it ends", "the box");
-  all.add_said("where", "a [formula](#formulas)", "only where it is true: `\"r < 1\"`", "everywhere");
+  all.add_said("where", text("a [formula](#formulas)"), "only where it is true: `\"r < 1\"`", "everywhere");
   all.add("minimum_distance", &L::minimum_distance, number(dimensions::length, not_negative), "between any two");
   all.add(
       "packing_fraction", &L::packing_fraction, number(dimensions::none, {0, 0.7476, true}),

@@ -337,7 +337,7 @@ class InfluenceReader {
   /// "force", "potential": a law that is typed under another key.
   void refuse_other_words() {
     std::vector<std::string> const keys{"law", "energy", "influence"};
-    for (auto const& [key, item, place] : section_.table().entries)
+    for (auto const& [key, place, item] : section_.table().entries)
       if (auto const near = did_you_mean(key, keys); !influence_options().find(key) && !near.empty())
         reading_.mistake(place, fmt::format("unknown key '{}' in [[influences]]{}", key, near));
   }

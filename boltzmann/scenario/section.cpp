@@ -214,7 +214,7 @@ void Section::explain(Option const& option, std::string value, std::optional<Dim
 
 void Section::explain_said(OptionTable const& options) {
   for (auto const& option : options)
-    if (option.kind.form == OptionKind::Form::said) explain(option);
+    if (option.read_by_code) explain(option, "", option.kind.by_space == 0 ? option.kind.dimension : std::nullopt);
 }
 
 void Section::explain_word(std::string key, std::string_view doc, std::vector<std::string> words, std::string value) {
@@ -230,8 +230,11 @@ void Section::refuse(std::string_view key, std::string const& what) {
 namespace {
 
 /// "; it is a key of [run]": for one that is in the wrong table, unless it may stand in many.
-std::string rather_in(std::string const& key) {
-  auto const places = places_of_key(key);
+std::string rather_in(std::string const& key, std::string const& title) {
+  auto places = places_of_key(key);
+  auto const classes = std::stable_partition(places.begin(), places.end(),
+                                             [](auto const& place) { return !place.starts_with("class "); });
+  if (title.starts_with("[[ensembles]]") && classes != places.end()) places.erase(places.begin(), classes);
   return places.empty() || places.size() > 4 ? "" : "; it is a key of " + join(places);
 }
 
@@ -249,7 +252,7 @@ void Section::finish() {
     std::string const near = did_you_mean(entry.key, allowed_);
     mistake(entry.place,
             fmt::format("unknown {} '{}' in {}; allowed are {}{}", entry.item.is(Item::Kind::table) ? "table" : "key",
-                        entry.key, title_, join(allowed_), near.empty() ? rather_in(entry.key) : near));
+                        entry.key, title_, join(allowed_), near.empty() ? rather_in(entry.key, title_) : near));
   }
 }
 
