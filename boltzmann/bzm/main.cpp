@@ -210,6 +210,10 @@ class CommandLine {
         ->type_name("KEY=VALUE")
         ->allow_extra_args(false);
     sub->add_option("--steps", overrides.steps, "number of steps")->transform(CLI::Validator(whole_number, "N"));
+    sub->add_option_function<std::string>(
+           "--time", [&overrides](std::string const& time) { overrides.set.push_back("run.time=" + time); },
+           "instead of steps: how long, \"2 ps\"")
+        ->type_name("TIME");
     sub->add_option("--seed", overrides.seed, "seed of all random numbers")
         ->transform(CLI::Validator(whole_number, "N"));
     sub->add_option("--threads", overrides.threads, "number of threads")->check(CLI::Range(1, 4096));
@@ -229,7 +233,7 @@ class CommandLine {
         ->required();
     scenario_options(sub, run_options_.overrides);
     sub->add_option("--hours", run_options_.hours, hours_doc)->check(hours_above_zero);
-    sub->add_option("--out", run_options_.out, "folder for the results [results/<name>]")->type_name("DIR");
+    sub->add_option("-o,--out", run_options_.out, "folder for the results [results/<name>]")->type_name("DIR");
     sub->add_flag("--quiet", run_options_.quiet, "no progress line and no table");
     sub->add_flag("--force", run_options_.force, "replace a run that is in the folder");
     window_options(sub, run_options_.window);

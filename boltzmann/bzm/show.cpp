@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 
 namespace boltzmann::bzm {
@@ -22,7 +23,9 @@ int list(std::string const& kind, bool names_only) {
     }
     fmt::print("{}{}\n", first ? "" : "\n", one);
     first = false;
-    for (auto const& entry : entries) fmt::print("  {:<22} {}\n", entry.name, entry.doc);
+    std::size_t width = 22;
+    for (auto const& entry : entries) width = std::max(width, entry.name.size());
+    for (auto const& entry : entries) fmt::print("  {:<{}}  {}\n", entry.name, width, entry.doc);
   }
   if (!names_only && kind.empty()) fmt::print("\nbzm show NAME explains one; bzm list units lists the units.\n");
   return 0;

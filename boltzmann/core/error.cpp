@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cctype>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 namespace boltzmann {
@@ -13,16 +14,17 @@ namespace {
 
 char lower(char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); }
 
+/// Letters that are put in, left out or other ones, and neighbours that have changed places.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
+  std::vector<std::size_t> row(b.size() + 1), above, above_that;
   std::iota(row.begin(), row.end(), 0U);
+  auto const same = [&](std::size_t i, std::size_t j) { return lower(a[i - 1]) == lower(b[j - 1]); };
   for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0];
+    above_that = std::exchange(above, row);
     row[0] = i;
     for (std::size_t j = 1; j <= b.size(); ++j) {
-      std::size_t const above = row[j];
-      row[j] = std::min({above + 1, row[j - 1] + 1, diagonal + (lower(a[i - 1]) == lower(b[j - 1]) ? 0 : 1)});
-      diagonal = above;
+      row[j] = std::min({above[j] + 1, row[j - 1] + 1, above[j - 1] + (same(i, j) ? 0 : 1)});
+      if (i > 1 && j > 1 && same(i, j - 1) && same(i - 1, j)) row[j] = std::min(row[j], above_that[j - 2] + 1);
     }
   }
   return row[b.size()];
@@ -35,7 +37,7 @@ std::string nearest(std::string_view word, std::span<std::string const> candidat
   std::size_t best_distance = word.size() + 1000;
   for (auto const& candidate : candidates) {
     auto const [shorter, longer] = std::minmax({word.size(), candidate.size()});
-    std::size_t const most = longer / 3 + 1;
+    std::size_t const most = std::min(longer / 3 + 1, longer / 2);  // short words have half of their letters in common
     if (longer - shorter > most || longer - shorter >= best_distance) continue;  // it is as far at least
     std::size_t const distance = edit_distance(word, candidate);
     if (distance < best_distance && distance <= most) {
@@ -43,15 +45,24 @@ std::string nearest(std::string_view word, std::span<std::string const> candidat
       best_distance = distance;
     }
   }
+  if (!best.empty() || word.size() < 3) return best;
+  for (auto const& candidate : candidates)  // "temp", "vel": the shortest word that begins so
+    if (candidate.size() > word.size() && edit_distance(word, candidate.substr(0, word.size())) == 0 &&
+        (best.empty() || candidate.size() < best.size()))
+      best = candidate;
   return best;
 }
 
 std::string did_you_mean(std::string_view word, std::span<std::string const> candidates) {
+  auto const among = [&](std::string_view one) {
+    return std::find(candidates.begin(), candidates.end(), one) != candidates.end();
+  };
   for (auto const& [before, now] : renamed_words)
-    if (word == before && std::find(candidates.begin(), candidates.end(), now) != candidates.end())
-      return "; it is '" + std::string(now) + "' now";
-  for (auto const& [elsewhere, here] : words_elsewhere)
-    if (word == elsewhere && std::find(candidates.begin(), candidates.end(), here) != candidates.end())
+    if (word == before && among(now)) return "; it is '" + std::string(now) + "' now";
+  std::string small = " " + std::string(word) + " ";
+  std::transform(small.begin(), small.end(), small.begin(), lower);
+  for (auto const& [here, elsewhere] : words_elsewhere)
+    if ((" " + std::string(elsewhere) + " ").find(small) != std::string::npos && among(here))
       return "; it is called '" + std::string(here) + "' here";
   std::string const best = nearest(word, candidates);
   return best.empty() ? "" : "; did you mean '" + best + "'?";

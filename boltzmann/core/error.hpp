@@ -20,8 +20,8 @@ struct PhysicsFailure : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The candidate with the smallest edit distance to `word` (ignoring case), or "" if none is near (distance above a
-/// third of the longer word + 1).
+/// The candidate with the smallest edit distance to `word` (ignoring case) of at most a third of the longer word + 1, and
+/// at most half of it; else the shortest that begins with three letters or more of it; else "".
 std::string nearest(std::string_view word, std::span<std::string const> candidates);
 
 /// "; did you mean 'cutoff'?" for the nearest candidate, "" if none is near.

@@ -201,7 +201,7 @@ std::string allowed(Option const& option) {
     case particles:
       return kind.words.front();
     case text:
-      return "a text";
+      return kind.words.empty() ? "a text" : kind.words.front();
     case path:
       return "the path of a file";
     case name:

@@ -93,8 +93,8 @@ struct OptionKind {
   /// Of numbers; nothing: that of the quantity which is shown, which depends on the other options.
   std::optional<Dimension> dimension = dimensions::none;
   NumberRange range = {};
-  std::vector<std::string> words = {};  ///< of a word; of a number of no dimension or particles what it is; of a group
-                                        ///< an example
+  std::vector<std::string> words = {};  ///< of a word; of a text, a number of no dimension or particles what it is; of
+                                        ///< a group an example
   int by_space = 0;       ///< in D dimensions the dimension is that times length^(D by_space): -1 for densities
   double counted_in = 1;  ///< what a number alone stands for, in the base: pi/180 for angles in degrees
 };
@@ -106,14 +106,16 @@ struct Option {
   std::string otherwise;    ///< what holds without it, where that is not the member's value at the beginning
   std::string needed = {};  ///< an example, for options that can't be left out
   std::function<OptionPlace(void*)> place;
+  bool read_by_code = false;  ///< by code of its own, not from the table
 };
 
 // What each of these lets a user write, in TOML.
 namespace option {
 /// true or false.
 inline OptionKind flag() { return {OptionKind::Form::flag}; }
-/// Any text: "gas at rest".
+/// Any text: "gas at rest"; what stands in it can be said, "the name of an ensemble".
 inline OptionKind text() { return {OptionKind::Form::text}; }
+inline OptionKind text(std::string what) { return {OptionKind::Form::text, dimensions::none, {}, {std::move(what)}}; }
 /// The path of a file, from the scenario's folder.
 inline OptionKind path() { return {OptionKind::Form::path}; }
 /// "velocity.x": what particles have, a column, a field; whoever uses it knows which.
@@ -238,14 +240,20 @@ class OptionTable {
                 [member](void* object) -> OptionPlace { return member(*static_cast<T*>(object)); }});
   }
 
-  /// An option that is read by code of its own: what may be written, in words.
-  OptionTable& add_said(std::string key, std::string what, std::string doc, std::string otherwise = "") {
+  /// An option that is read by code of its own.
+  OptionTable& add_said(std::string key, OptionKind kind, std::string doc, std::string otherwise = "") {
     return add({std::move(key),
-                {OptionKind::Form::said, dimensions::none, {}, {std::move(what)}},
+                std::move(kind),
                 std::move(doc),
                 std::move(otherwise),
                 {},
-                [](void*) -> OptionPlace { return std::monostate{}; }});
+                [](void*) -> OptionPlace { return std::monostate{}; },
+                true});
+  }
+  /// The same: what may be written, in words.
+  OptionTable& add_said(std::string key, std::string what, std::string doc, std::string otherwise = "") {
+    return add_said(std::move(key), OptionKind{OptionKind::Form::said, dimensions::none, {}, {std::move(what)}},
+                    std::move(doc), std::move(otherwise));
   }
 
   OptionTable& add(Option option) {

@@ -23,7 +23,7 @@ OptionTable make_dissipation_options() {
   all.add("range", &D::dissipation, &DissipationLaw::range, number(dimensions::length, positive),
           "beyond it nothing acts; at most half of a periodic axis");
   all.add("exponent", &D::dissipation, &DissipationLaw::exponent, number(dimensions::none, not_negative), "of chi");
-  all.add_said("weight", "a [formula](#laws-that-are-typed) of `r` and `range`, a number, zero or more",
+  all.add_said("weight", text("a [formula](#laws-that-are-typed) of `r` and `range`, a number, zero or more"),
                "chi, instead of `exponent`: `\"(1 - r/range)^2*(1 + 2*r/range)\"`", "that of `exponent`");
   all.add_said("parameters", "a table of quantities", "which its formulas use: `{ length = \"4 angstrom\" }`", "none");
   all.add("projected", &D::dissipation, &DissipationLaw::projected, flag(),

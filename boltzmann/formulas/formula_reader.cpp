@@ -409,9 +409,13 @@ class Reader {
     words.insert(words.end(), also.begin(), also.end());
     std::string spaced = wider;
     if (names_.with_blanks) std::replace_if(spaced.begin(), spaced.end(), is_joint, ' ');
-    std::string const nearest = did_you_mean(spaced, words);
-    return {begin, fmt::format("unknown name '{}'; there are {}{}", quoted(nearest.empty() ? found : wider),
-                               some_of(known), nearest.empty() ? did_you_mean(found, words) : nearest)};
+    std::string hint = did_you_mean(spaced, words);
+    std::string const name = quoted(hint.empty() ? found : wider);
+    if (hint.empty()) hint = did_you_mean(found, words);
+    if (hint.empty() && found == "e") hint = "; powers of e are exp(x)";
+    if (hint.empty() && names_.with_parameters && found.find('.') == std::string::npos)
+      hint = fmt::format("; a number of your own stands in parameters = {{ {} = 1 }}", quoted(found));
+    return {begin, fmt::format("unknown name '{}'; there are {}{}", name, some_of(known), hint)};
   }
   std::optional<FormulaValue> value_of(std::string const& name) {
     if (auto const at = names_.values.find(name); at != names_.values.end()) return at->second;

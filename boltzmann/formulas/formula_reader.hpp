@@ -64,6 +64,7 @@ struct NamesInFormula {
   /// Names may have blanks, "kinetic energy", which may be written as '-' or '_', too; of names that begin alike the
   /// longest one that stands at a place is meant.
   bool with_blanks = false;
+  bool with_parameters = false;  ///< messages say where numbers of one's own are said
   /// If there is one, what is found for many particles together may stand in the formula, and is added there.
   ParticleSums* sums = nullptr;
 };

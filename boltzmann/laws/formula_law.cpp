@@ -34,6 +34,7 @@ class Maker {
   Maker(FormulaLaw const& law, AnyEnsemble const& target) : law_(law), target_(target), dimension_(target.dimension()) {
     names_.units = law.units;
     names_.checked = !law.units.is_reduced();
+    names_.with_parameters = true;
     if (law.changes.empty() && target.influence_size() != static_cast<std::size_t>(dimension_))
       throw FormulaPartError(
           "", 0,

@@ -38,9 +38,9 @@ struct PlainCore {
       .name = "biot-savart",
       .doc = "vortices carry fluid particles and each other; in 2D a solid core, in 3D that of Rosenhead and Moore",
       .formula =
-          "velocity Gamma k x r/(2 pi max(r, core)^2) in 2D, -r x omega/(4 pi (r^2 + core^2)^(3/2)) in 3D, "
-          "which also changes the vorticity of Inviscid and its kind by (1 - transposed) (omega . grad) v + "
-          "transposed grad (omega . v)",
+          "velocity Gamma e_z x r/(2 pi max(r, sigma)^2) in 2D, omega x r/(4 pi (r^2 + sigma^2)^(3/2)) in 3D; r from "
+          "the vortex, Gamma and omega its vorticity, sigma its core. In 3D the vorticity of Inviscid and its kind "
+          "changes, too, by (1 - transposed) (omega . grad) v + transposed grad (omega . v)",
       .target = "Tracer",
       .source = "Vortex",
       .least_dimension = 2,
@@ -69,9 +69,8 @@ struct AlgebraicCore {
       .name = "biot-savart-algebraic",
       .doc = "the same with the algebraic core of Winckelmans and Leonard, whose errors are of second order",
       .formula =
-          "velocity Gamma k x r (r^2 + 2 core^2)/(2 pi s^4) in 2D, -r x omega (r^2 + 5/2 core^2)/(4 pi s^5) in "
-          "3D, s^2 = r^2 + core^2; transposed as in "
-          "biot-savart",
+          "velocity Gamma e_z x r (r^2 + 2 sigma^2)/(2 pi (r^2 + sigma^2)^2) in 2D, omega x r (r^2 + 5/2 sigma^2)/"
+          "(4 pi (r^2 + sigma^2)^(5/2)) in 3D; letters, and transposed, as in biot-savart",
       .target = "Tracer",
       .source = "Vortex",
       .least_dimension = 2,
@@ -101,8 +100,8 @@ struct GaussianCore {
       .name = "biot-savart-gaussian",
       .doc = "the same with Gaussian cores of standard deviation `core`, as viscosity makes them; of second order",
       .formula =
-          "velocity Gamma k x r (1 - exp(-t^2))/(2 pi r^2) in 2D, -r x omega (erf(t) - 2 t exp(-t^2)/sqrt(pi))/"
-          "(4 pi r^3) in 3D, t^2 = r^2/(2 core^2); transposed as in biot-savart",
+          "velocity Gamma e_z x r (1 - exp(-t^2))/(2 pi r^2) in 2D, omega x r (erf(t) - 2 t exp(-t^2)/sqrt(pi))/"
+          "(4 pi r^3) in 3D, t = r/(sqrt(2) sigma); letters, and transposed, as in biot-savart",
       .target = "Tracer",
       .source = "Vortex",
       .least_dimension = 2,

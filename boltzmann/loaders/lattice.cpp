@@ -145,6 +145,10 @@ double spacing_for_density(Lattice kind, int dimension, double number_density) {
   return std::pow(static_cast<double>(cell.sites.size()) / (volume * number_density), 1.0 / dimension);
 }
 
+double spacing_for_constant(Lattice kind, int dimension, double lattice_constant) {
+  return lattice_constant / cell_of(kind, dimension).edges[0];
+}
+
 namespace {
 
 /// How many cells there are along each axis.

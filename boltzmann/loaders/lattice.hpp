@@ -48,6 +48,8 @@ std::array<double, 3> repeat_lengths(LatticeBlock const& block, int dimension);
 LatticeBlock centred(LatticeBlock block, Box const& box);
 /// The distance of nearest neighbours at which the lattice has that many sites per length, area or volume.
 double spacing_for_density(Lattice kind, int dimension, double number_density);
+/// The distance of nearest neighbours in a lattice of that constant: of fcc, bcc and diamond the edge of the cube.
+double spacing_for_constant(Lattice kind, int dimension, double lattice_constant);
 
 /// A lattice that fills the block from `low` to `high` exactly: as many cells along each axis as come nearest to this
 /// spacing, stretched to fit, with a site in the middle of each (of cells with several sites: the outermost equally far

@@ -57,9 +57,15 @@ Field const& AnyEnsemble::field(std::string_view name) const {
   if (Field const* found = find_field(name)) return *found;
   std::vector<std::string> names;
   names.reserve(fields_.size());
-  for (auto const& field : fields_) names.push_back(field.name);
+  std::size_t named = 0;
+  for (auto const& field : fields_) {
+    names.push_back(field.name);
+    named = std::max(named, static_cast<std::size_t>(field.offset + field.components));
+  }
+  std::string hint = did_you_mean(name, names);
+  if (hint.empty() && named < doubles_) hint = "; its class holds more, which its fields() does not name";
   throw Error("ensemble '" + name_ + "' of class " + class_name_ + " has no field '" + std::string(name) +
-              "'; it has " + join(names) + did_you_mean(name, names));
+              "'; it has " + join(names) + hint);
 }
 
 std::vector<double> AnyEnsemble::column(Field const& field, int component) const {

@@ -27,7 +27,12 @@ inline constexpr std::size_t row_doubles = sizeof(P) / sizeof(double);
 
 namespace detail {
 template <class P, class Real>
-struct rebind;
+struct rebind {
+  static_assert(sizeof(P) == 0,
+                "a particle class is a template on its kind of number, in which it is a double or a pack of them: "
+                "template <class Real = double> struct Ion : Newton<2, Real> { Real age; ... };");
+  using type = P;
+};
 template <template <class> class P, class Old, class Real>
 struct rebind<P<Old>, Real> {
   using type = P<Real>;

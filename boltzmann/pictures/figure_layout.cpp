@@ -87,8 +87,11 @@ void each_place(Canvas const& canvas, Visit visit) {
 AxisRange linear_range(Axis const& axis, Extent const& extent) {
   AxisRange range{extent.empty() ? 0 : std::max(extent.low, -huge), extent.empty() ? 1 : std::min(extent.high, huge),
                   false};
+  bool const fixed_low = std::isfinite(axis.low), fixed_high = std::isfinite(axis.high);
   double const largest = std::max(std::abs(range.low), std::abs(range.high));
-  double const width = range.high - range.low;
+  double const shown = (fixed_high ? std::min(axis.high, range.high) : range.high) -
+                       (fixed_low ? std::max(axis.low, range.low) : range.low);
+  double const width = shown > 0 ? shown : range.high - range.low;
   if (extent.empty()) {
   } else if (width <= 1e-13 * largest || width < 1e-290) {
     double const room = largest > 1e-290 ? 0.05 * largest : 1;
@@ -98,7 +101,6 @@ AxisRange linear_range(Axis const& axis, Extent const& extent) {
     range.low -= padding * width;
     range.high += padding * width;
   }
-  bool const fixed_low = std::isfinite(axis.low), fixed_high = std::isfinite(axis.high);
   if (fixed_low) range.low = axis.low;
   if (fixed_high) range.high = axis.high;
   if (range.low > range.high && fixed_low && fixed_high) std::swap(range.low, range.high);

@@ -33,9 +33,23 @@ class ProgressLine {
         terminal_(rewrites_lines()),
         next_tenth_(planned_ > 0 ? first * 10 / planned_ + 1 : 11) {}
 
+  /// What comes before the first step may take long: an equilibration, lists, plans of transforms.
+  void begin(bool equilibrates) const {
+    char const* const what = equilibrates ? "equilibrating" : "getting ready";
+    if (terminal_)
+      fmt::print(stderr, "\r{}: {}\033[K", place(first_), what), std::fflush(stderr);
+    else if (equilibrates)
+      fmt::print(stderr, "{}\n", what);
+  }
+
   /// Looks at the clock if the steps since the last look make that worthwhile.
   void look(std::int64_t step) {
     if (step < next_look_ && step != last_) return;
+    if (!stepped_) {  // from here on steps are timed
+      stepped_ = true;
+      first_ = step;
+      start_ = Clock::now();
+    }
     double const now = seconds_since(start_);
     std::int64_t const done = step - first_;
     if (terminal_) {
@@ -55,15 +69,20 @@ class ProgressLine {
   }
 
   void clear() const {
-    if (terminal_ && shown_ > 0) std::fputs("\r\033[K", stderr);
+    if (terminal_) std::fputs("\r\033[K", stderr);
   }
 
  private:
+  std::string place(std::int64_t step) const {
+    return fmt::format("{:3d} %  step {} of {}", planned_ > 0 ? 100 * step / planned_ : 100, step, planned_);
+  }
   void show(std::int64_t step, double now) {
-    double const rate = static_cast<double>(step - first_) / std::max(now, 1e-9);
-    auto const line =
-        fmt::format("{:3d} %  step {} of {}, {} steps/s, {} left", planned_ > 0 ? 100 * step / planned_ : 100, step,
-                    planned_, rate_text(rate), duration_text(static_cast<double>(last_ - step) / std::max(rate, 1e-9)));
+    std::string line = place(step);
+    if (step > first_) {
+      double const rate = static_cast<double>(step - first_) / std::max(now, 1e-9);
+      line += fmt::format(", {} steps/s, {} left", rate_text(rate),
+                          duration_text(static_cast<double>(last_ - step) / std::max(rate, 1e-9)));
+    }
     fmt::print(stderr, "{}{}{}", terminal_ ? "\r" : "", line, terminal_ ? "\033[K" : "\n");
     std::fflush(stderr);
     shown_ = now;
@@ -71,7 +90,7 @@ class ProgressLine {
 
   Clock::time_point start_ = Clock::now();
   std::int64_t first_, last_, planned_, next_look_ = 0;
-  bool terminal_;
+  bool terminal_, stepped_ = false;
   std::int64_t next_tenth_;
   double shown_ = 0;
 };
@@ -168,6 +187,7 @@ RunReport run_loop(Simulation& simulation, std::uint64_t steps, ProgressOptions 
   if (watch.line || watch.limit || watch.particle_steps)
     attending.emplace(simulation, simulation.observe_progress([&](Simulation const&) { watch.look(simulation); }));
   auto const start = Clock::now();
+  if (watch.line && !options.drive) watch.line->begin(simulation.equilibrates());
   try {
     if (options.drive)
       options.drive(steps);

@@ -354,17 +354,28 @@ void for_each_table(std::function<void(std::string const&, OptionTable const&)> 
   for (auto const& drawing : drawings()) function("drawing " + drawing.name, drawing.options);
 }
 
-/// The tables that have a key; false if none has it.
+Field const* field_of(ParticleClass const& one, std::string const& name) {
+  for (auto const& field : one.variants.back().fields)
+    if (field.name == name) return &field;
+  return nullptr;
+}
+
+/// The tables that have a key, and the classes that have it as a field; false if none has it.
 bool show_key(Page& page, std::string const& key) {
   std::vector<std::string> lines, places;
-  for_each_table([&](std::string const& place, OptionTable const& options) {
-    Option const* option = options.find(key);
-    if (!option) return;
-    auto const line = plain_text(option->doc + ": " + allowed(*option));
+  auto const add = [&](std::string const& line, std::string const& place) {
     auto const known = static_cast<std::size_t>(std::find(lines.begin(), lines.end(), line) - lines.begin());
     if (known == lines.size()) lines.push_back(line), places.emplace_back();
     places[known] += (places[known].empty() ? "" : ", ") + place;
+  };
+  for_each_table([&](std::string const& place, OptionTable const& options) {
+    if (Option const* option = options.find(key)) add(plain_text(option->doc + ": " + allowed(*option)), place);
   });
+  for (auto const& one : particle_classes())
+    if (Field const* field = field_of(one, key))
+      add(fmt::format("field of particles{}{}: {}", field->doc.empty() ? "" : ", ", field->doc,
+                      with_article(name_of(field->dimension))),
+          "class " + one.name);
   if (lines.empty()) return false;
   page.print("key {}\n", key);
   for (std::size_t k = 0; k < lines.size(); ++k) page.print("  {}\n    of {}\n", lines[k], places[k]);
@@ -387,6 +398,22 @@ bool show_unit(Page& page, std::string const& name) {
   auto const quantity = parse_quantity("1 " + name);
   page.print("unit {}: {}\n\n  in SI       {:.12g}\n", name, one(name_of(quantity.dimension)), quantity.si);
   return true;
+}
+
+/// The only name that differs from this one by capital letters alone; else this one.
+std::string as_listed(std::string const& given) {
+  auto const small = [](std::string text) {
+    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
+    return text;
+  };
+  std::string found = given;
+  for (auto const& section : sections)
+    for (auto const& entry : section.entries()) {
+      if (std::string_view(section.name) == "units") continue;
+      if (entry.name == given) return given;
+      if (small(entry.name) == small(given)) found = entry.name;
+    }
+  return found;
 }
 
 /// The nearest of all names; of keys and units only where no name is near.
@@ -424,8 +451,19 @@ std::vector<Named> listed(std::string const& kind) {
   throw Error("nothing is listed as '" + kind + "'; there are " + join(kinds) + did_you_mean(kind, kinds));
 }
 
-std::string catalogue_page(std::string const& name) {
+std::vector<std::string> places_of_key(std::string const& key) {
+  std::vector<std::string> places;
+  for_each_table([&](std::string const& place, OptionTable const& options) {
+    if (options.find(key)) places.push_back(place);
+  });
+  for (auto const& one : particle_classes())
+    if (field_of(one, key)) places.push_back("class " + one.name);
+  return places;
+}
+
+std::string catalogue_page(std::string const& given) {
   Page page;
+  std::string const name = as_listed(given);
   auto const shipped = shipped_scenarios();
   if (std::find(shipped.begin(), shipped.end(), name) != shipped.end() || name.ends_with(".toml")) {
     show_scenario(page, name);
@@ -459,6 +497,7 @@ std::string catalogue_page(std::string const& name) {
   for (auto const& kind : key_words)
     for (auto const& word : kind.words())
       if (word.name == name) next(), page.print("{} {}: {}\n", kind.what, name, word.doc);
+  if (given != name) next(), shown = show_unit(page, given) || shown;
   if (shown || show_key(page, name) || show_unit(page, name)) return page.text;
   throw Error("nothing is called '" + name + "'" + near_name(name) + " (bzm list shows all names)");
 }

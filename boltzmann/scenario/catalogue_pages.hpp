@@ -20,4 +20,7 @@ std::vector<Named> listed(std::string const& kind);
 /// nothing.
 std::string catalogue_page(std::string const& name);
 
+/// Where a key may stand, "[run]", "loader random", and as a field "class Coulomb".
+std::vector<std::string> places_of_key(std::string const& key);
+
 }  // namespace boltzmann

@@ -222,6 +222,7 @@ void KeyNotes::key(Item const& table, ToldKey const& key, UnitSystem const& unit
     parameter.words = kind.words;
   } else if (kind.form == OptionKind::Form::text || kind.form == name || kind.form == OptionKind::Form::path) {
     parameter.kind = "text";
+    if (!kind.words.empty()) parameter.doc += ": " + plain_text(kind.words.front());
   } else if (kind.form == whole) {
     parameter.kind = "integer";
     limit(told, kind.range.low, kind.range.high, false);

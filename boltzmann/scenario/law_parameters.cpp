@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace boltzmann {
@@ -17,11 +18,19 @@ bool has_default(Parameter const& parameter, bool reduced_base) {
   return parameter.unlimited || (!parameter.default_text.empty() && there);
 }
 
-std::string example_of(Parameter const& parameter, bool is_vector, int space, bool reduced_base) {
+/// "1 eV": in a unit of about the size of what is one in the base.
+std::string example_of(Parameter const& parameter, bool is_vector, int space, UnitSystem const& base) {
   if (is_vector) return space == 3 ? "[0, 0, -1]" : "[0, -1]";
-  auto const units = example_units(parameter.dimension.in(space));
+  Dimension const dimension = parameter.dimension.in(space);
+  auto const units = example_units(dimension);
   std::string const number = parameter.range.contains(1) ? "1" : "1.4";
-  return reduced_base || units.empty() ? number : fmt::format("\"{} {}\"", number, units[0]);
+  if (base.is_reduced() || units.empty()) return number;
+  auto const away = [&](std::string const& unit) {
+    return std::abs(std::log(base.from_si(parse_quantity("1 " + unit).si, dimension)));
+  };
+  auto const nearest = std::min_element(units.begin(), units.end(),
+                                        [&](auto const& a, auto const& b) { return away(a) < away(b); });
+  return fmt::format("\"{} {}\"", number, *nearest);
 }
 
 Option option_of(Parameter const& parameter) {
@@ -75,7 +84,7 @@ std::optional<ParameterValues> read_parameters(Section& section, std::string_vie
     if (!item && !has_default(parameter, units.is_reduced())) {
       reading.mistake(section.place(),
                       fmt::format("{} needs '{}', {}; add e.g. {} = {}", owner, name, parameter.doc, name,
-                                  example_of(parameter, is_vector, space == 0 ? 3 : space, units.is_reduced())));
+                                  example_of(parameter, is_vector, space == 0 ? 3 : space, units)));
     } else if (!item) {
       values.push_back(
           {name, std::vector<double>(is_vector ? static_cast<std::size_t>(std::max(space, 1)) : 1,

@@ -22,13 +22,15 @@ OptionTable make_members() {  // long: a table, a row for each key
           "`number_density` says it");
   all.add("number_density", &L::number_density, number_by_space(dimensions::none, -1, positive),
           "instead of the spacing: particles per length, area or volume", "`spacing` says it");
+  all.add("lattice_constant", &L::lattice_constant, number(dimensions::length, positive),
+          "instead of the spacing: of fcc, bcc and diamond the edge of their cube", "`spacing` says it");
   all.add_said("counts", "a list of whole numbers, one for each axis", "cells along each axis");
   all.add_said("origin", "a length along each axis, or `\"centred\"`", "of the first site", "centred in the box");
   all.add("jitter", &L::jitter, number(dimensions::none, {0, 1}),
           "moved at random, by at most this part of the spacing along each axis");
   all.add("low", &L::low, vector(dimensions::length), "where the lattice begins", "the box");
   all.add("high", &L::high, vector(dimensions::length), "where it ends", "the box");
-  all.add_said("where", "a [formula](#formulas)", "only where it is true: `\"r < 1\"`", "everywhere");
+  all.add_said("where", text("a [formula](#formulas)"), "only where it is true: `\"r < 1\"`", "everywhere");
   all.add("minimum_distance", &L::minimum_distance, number(dimensions::length, not_negative), "between any two");
   all.add(
       "packing_fraction", &L::packing_fraction, number(dimensions::none, {0, 0.7476, true}),
@@ -102,7 +104,13 @@ std::vector<LoadKind> make_kinds() {  // long: a table, an entry for each kind
   OptionKey const about_density{"number_density", "instead of the spacing: about so many per length, area or volume"};
   return {
       {"block", "a block of crystal", false,
-       of({{"lattice"}, {"spacing"}, {"number_density"}, {"counts"}, {"origin"}, {"jitter"}})},
+       of({{"lattice"},
+           {"spacing", "", "`lattice_constant` or `number_density` says it"},
+           {"lattice_constant"},
+           {"number_density"},
+           {"counts"},
+           {"origin"},
+           {"jitter"}})},
       {"fill", "a lattice that fills a block exactly, a particle in the middle of each cell", false,
        of({{"lattice"}, about, about_density, {"low"}, {"high"}, {"where"}, {"jitter"}})},
       {"random", "uniform in the box, or in a part of it", true,

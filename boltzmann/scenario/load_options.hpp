@@ -16,7 +16,7 @@ namespace boltzmann {
 /// What is a plain number, word or place; counts, lists of places and formulas are read by code.
 struct LoadOptions {
   Lattice lattice = Lattice::square;
-  std::optional<double> spacing, number_density;
+  std::optional<double> spacing, number_density, lattice_constant;
   double jitter = 0;  ///< a part of the spacing
   double minimum_distance = 0;
   std::optional<double> packing_fraction;

@@ -1,9 +1,12 @@
 // The words are a table of a document without a file, and read as one.
+#include <boltzmann/core/toml_text.hpp>
 #include <boltzmann/pictures/picture_options.hpp>
 #include <boltzmann/scenario/picture_words.hpp>
 #include <boltzmann/scenario/read_options.hpp>
 
 #include <fmt/format.h>
+
+#include <algorithm>
 
 namespace boltzmann {
 namespace {
@@ -25,6 +28,15 @@ Item item_of(Option const& option, std::string const& text, Place const& place) 
   }
 }
 
+/// Whether it shows the quantities that the words ask for, as far as they say any.
+bool shows(Picture plan, PictureWords const& words) {
+  return std::all_of(words.begin(), words.end(), [&](auto const& word) {
+    auto const& [key, text] = word;
+    bool const of_quantity = key == "x" || key == "y" || key == "colour";
+    return !of_quantity || toml_value(*picture_options().find(key), &plan) == toml_text(text);
+  });
+}
+
 }  // namespace
 
 Picture picture_by_words(ScenarioSimulation const& run, PictureWords const& words) {
@@ -41,12 +53,15 @@ Picture picture_by_words(ScenarioSimulation const& run, PictureWords const& word
     else
       table.entries.push_back({key, place, item_of(*option, text, place)});
   }
+  Picture const plain;
   Picture picture;
-  for (auto const& plan : run.output.pictures)
-    if (drawing.empty() || plan.drawing == drawing) {
-      picture = plan;
-      break;
-    }
+  auto const& plans = run.output.pictures;
+  auto const asked = [&](Picture const& plan) { return drawing.empty() || plan.drawing == drawing; };
+  auto const same =
+      std::find_if(plans.begin(), plans.end(), [&](auto const& plan) { return asked(plan) && shows(plan, words); });
+  auto const like = same != plans.end() ? same : std::find_if(plans.begin(), plans.end(), asked);
+  if (like != plans.end()) picture = *like;
+  if (same == plans.end()) picture.low = plain.low, picture.high = plain.high;  // those of another quantity
   if (!drawing.empty()) picture.drawing = drawing;
   Section section(table, fmt::format("a picture '{}'", picture.drawing), context);
   read_options(section, drawing_named(picture.drawing).options, &picture,

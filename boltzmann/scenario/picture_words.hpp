@@ -12,8 +12,9 @@ namespace boltzmann {
 /// Keys of picture_options() and values, as TOML or without its quotation marks; a list may be without brackets.
 using PictureWords = std::vector<std::pair<std::string, std::string>>;
 
-/// The first picture of a run that has the drawing which the words ask for (any, if they ask for none) with what they
-/// say of it; a plain one if the run has none. Units are those of the run. ScenarioErrors, "--low 1 kg: ...", with all
+/// The first picture of a run that has the drawing and the quantities which the words ask for (any, if they ask for none),
+/// else the first with the drawing, but for the ends of its values, with what they say of it; a plain one if the run has
+/// none. Units are those of the run. ScenarioErrors, "--low 1 kg: ...", with all
 /// that is wrong.
 Picture picture_by_words(ScenarioSimulation const& run, PictureWords const& words);
 

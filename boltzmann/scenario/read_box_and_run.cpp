@@ -250,11 +250,16 @@ void read_run(Section& document, Reading& reading) {
   if (run.cutoff && reading.box)
     for (int a = 0; a < reading.dimension; ++a)
       if (reading.box->periodic(a) && *run.cutoff > reading.box->length(a)) {
-        reading.mistake(run.cutoff_place,
-                        fmt::format("cutoff: {} is longer than the periodic axis {}, which allows at most {}",
-                                    *run.cutoff, "xyz"[a], reading.box->length(a)));
+        refuse_cutoff(run.cutoff_place, *run.cutoff, a, reading);
         run.cutoff = reading.box->length(a);
       }
+}
+
+void refuse_cutoff(Place const& place, double cutoff, int axis, Reading& reading) {
+  auto const& units = reading.context.units;
+  reading.mistake(place, fmt::format("cutoff: {} is longer than the periodic axis {}, which allows at most {}",
+                                     units.text(cutoff, dimensions::length, 6), "xyz"[axis],
+                                     units.text(reading.box->length(axis), dimensions::length, 6)));
 }
 
 void settle_run(Item& resolved, Reading& reading) {

@@ -319,14 +319,27 @@ class InfluenceReader {
   void read_law() {
     std::vector<std::string> names;
     for (auto const& law : scenario_laws()) names.emplace_back(law.name);
-    Item const* item = section_.need("law", "law = \"lennard-jones\"");
-    auto const name = item ? read_word(*item, "law", names, reading_.context) : std::nullopt;
+    Item const* item = section_.need(
+        "law", "law = \"lennard-jones\", or energy = \"exp(-r)/r\" or influence = \"...\" of a law that is typed");
+    if (!item) return refuse_other_words();
+    if (item->is(Item::Kind::text) && !find_law(item->text) && did_you_mean(item->text, names).empty())
+      return reading_.mistake(item->place, fmt::format("unknown law '{}'; there are {}; others are typed: energy = "
+                                                       "\"exp(-r)/r\", or influence = \"...\" (bzm new --law)",
+                                                       quoted(item->text), join(names)));
+    auto const name = read_word(*item, "law", names, reading_.context);
     if (!name) return;
     law_ = find_law(*name);
     law_place_ = item->place;
     section_.explain_word("law", law_->doc);
     section_.explain_said(influence_options());
     section_.rename(fmt::format("[[influences]] '{}'", *name));
+  }
+  /// "force", "potential": a law that is typed under another key.
+  void refuse_other_words() {
+    std::vector<std::string> const keys{"law", "energy", "influence"};
+    for (auto const& [key, place, item] : section_.table().entries)
+      if (auto const near = did_you_mean(key, keys); !influence_options().find(key) && !near.empty())
+        reading_.mistake(place, fmt::format("unknown key '{}' in [[influences]]{}", key, near));
   }
   bool refused_with_smooth() {
     if (external() || !((a_ && a_->smooth()) || (b_ && b_->smooth()))) return false;
@@ -536,11 +549,9 @@ class InfluenceReader {
       if (reach == no_cutoff)
         reading_.mistake(section_.place(),
                          fmt::format("axis {} is periodic: {} needs a cut-off there, in [run] or here, of at most {}",
-                                     "xyz"[axis], called(), most));
+                                     "xyz"[axis], called(), reading_.context.units.text(most, dimensions::length, 6)));
       else
-        reading_.mistake(section_.place("cutoff"),
-                         fmt::format("cutoff: {} is longer than the periodic axis {}, which allows at most {}", reach,
-                                     "xyz"[axis], most));
+        refuse_cutoff(section_.place("cutoff"), reach, axis, reading_);
       break;
     }
     return reach;

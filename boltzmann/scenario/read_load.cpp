@@ -138,11 +138,16 @@ void Loader::read_spacing(std::optional<std::size_t> number, Place const& number
   if (options_.spacing) {
     block_.spacing = *options_.spacing;
     spacing_known_ = true;
-    section_.refuse("number_density", "'spacing' says it, too; leave one out");
-  } else if (options_.number_density) {
+    for (char const* other : {"lattice_constant", "number_density"})
+      section_.refuse(other, "'spacing' says it, too; leave one out");
+  } else if (options_.lattice_constant || options_.number_density) {
+    bool const by_constant = options_.lattice_constant.has_value();
+    if (by_constant) section_.refuse("number_density", "'lattice_constant' says it, too; leave one out");
     if (reading_.dimension == 0) return;
-    spacing_known_ = catch_errors(reading_, section_.place("number_density"), [&] {
-      block_.spacing = spacing_for_density(block_.kind, reading_.dimension, *options_.number_density);
+    spacing_known_ = catch_errors(reading_, section_.place(by_constant ? "lattice_constant" : "number_density"), [&] {
+      block_.spacing = by_constant
+                           ? spacing_for_constant(block_.kind, reading_.dimension, *options_.lattice_constant)
+                           : spacing_for_density(block_.kind, reading_.dimension, *options_.number_density);
     });
   } else if (kind_->name == "fill" && number) {
     read_corners();
@@ -151,7 +156,7 @@ void Loader::read_spacing(std::optional<std::size_t> number, Place const& number
     spacing_known_ = catch_errors(reading_, number_place, [&] {
       block_.spacing = spacing_for_number({block_.kind, 1, low_, high_}, reading_.dimension, *number);
     });
-  } else if (!section_.has("spacing") && !section_.has("number_density")) {
+  } else if (!section_.has("spacing") && !section_.has("number_density") && !section_.has("lattice_constant")) {
     section_.need("spacing", reading_.context.units.is_reduced() ? "spacing = 1" : "spacing = \"2.551 angstrom\"");
   }
 }
@@ -351,8 +356,11 @@ void Loader::refuse_overlapping_ends(std::array<double, 3> const& lengths) {
     auto const told = [&](double number) { return reading_.context.units.text(number, dimensions::length, 6); };
     Place const counts = section_.place("counts"), spacing = section_.place("spacing");
     reading_.mistake(spacing.override_number > counts.override_number ? spacing : counts,
-                     fmt::format("counts: the block is {} long along {}, the periodic axis {}: its ends would overlap",
-                                 told(length), "xyz"[a], told(axis)));
+                     fmt::format("counts: the block is {} long along {}, the periodic axis {}: its ends would overlap{}",
+                                 told(length), "xyz"[a], told(axis),
+                                 options_.spacing && block_.kind != Lattice::square
+                                     ? "; 'spacing' is of nearest neighbours, not the lattice constant"
+                                     : ""));
     return;
   }
 }

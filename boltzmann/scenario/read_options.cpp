@@ -205,7 +205,8 @@ void read_options(Section& section, OptionTable const& options, void* object, Op
   explain_options(section, options, object, meaning.dimension);
   auto const read = [&](Option const& option, Dimension dimension) {
     auto const place = option.place(object);
-    bool const of_scenario = option.kind.form == Form::ensembles || option.kind.form == Form::particles;
+    bool const of_scenario =
+        !option.read_by_code && (option.kind.form == Form::ensembles || option.kind.form == Form::particles);
     // An example with a unit says nothing where there are none.
     bool const plain =
         option.needed.starts_with('"') && option.kind.form == Form::number && section.context().units.is_reduced();

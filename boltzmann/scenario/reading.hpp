@@ -235,6 +235,8 @@ void read_run(Section& document, Reading& reading);
 /// What follows from [run] when everything is loaded: a Courant step, the number of steps of a time. They stand in
 /// `resolved` instead of what was asked for.
 void settle_run(Item& resolved, Reading& reading);
+/// A mistake: the periodic axis is shorter than the cut-off.
+void refuse_cutoff(Place const& place, double cutoff, int axis, Reading& reading);
 /// Makes the schemes that the file has tables of.
 void read_schemes(Section& document, Reading& reading);
 void read_mesh(Item const& table, Reading& reading);

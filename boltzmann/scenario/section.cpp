@@ -1,5 +1,6 @@
 // Reading values and saying what is wrong with them.
 #include <boltzmann/core/quantity_text.hpp>
+#include <boltzmann/scenario/catalogue_pages.hpp>
 #include <boltzmann/scenario/section.hpp>
 
 #include <fmt/format.h>
@@ -213,7 +214,7 @@ void Section::explain(Option const& option, std::string value, std::optional<Dim
 
 void Section::explain_said(OptionTable const& options) {
   for (auto const& option : options)
-    if (option.kind.form == OptionKind::Form::said) explain(option);
+    if (option.read_by_code) explain(option, "", option.kind.by_space == 0 ? option.kind.dimension : std::nullopt);
 }
 
 void Section::explain_word(std::string key, std::string_view doc, std::vector<std::string> words, std::string value) {
@@ -226,6 +227,19 @@ void Section::refuse(std::string_view key, std::string const& what) {
   known_.emplace_back(key);
 }
 
+namespace {
+
+/// "; it is a key of [run]": for one that is in the wrong table, unless it may stand in many.
+std::string rather_in(std::string const& key, std::string const& title) {
+  auto places = places_of_key(key);
+  auto const classes = std::stable_partition(places.begin(), places.end(),
+                                             [](auto const& place) { return !place.starts_with("class "); });
+  if (title.starts_with("[[ensembles]]") && classes != places.end()) places.erase(places.begin(), classes);
+  return places.empty() || places.size() > 4 ? "" : "; it is a key of " + join(places);
+}
+
+}  // namespace
+
 void Section::finish() {
   auto const in = [](std::vector<std::string> const& keys, std::string const& key) {
     return std::find(keys.begin(), keys.end(), key) != keys.end();
@@ -233,11 +247,13 @@ void Section::finish() {
   for (auto const& told : told_)
     if (in(allowed_, told.option.key) && !in(refused_, told.option.key))
       context_.notes->key(table_, told, context_.units);
-  for (auto const& entry : table_.entries)
-    if (!in(allowed_, entry.key) && !in(known_, entry.key))
-      mistake(entry.place,
-              fmt::format("unknown {} '{}' in {}; allowed are {}{}", entry.item.is(Item::Kind::table) ? "table" : "key",
-                          entry.key, title_, join(allowed_), did_you_mean(entry.key, allowed_)));
+  for (auto const& entry : table_.entries) {
+    if (in(allowed_, entry.key) || in(known_, entry.key)) continue;
+    std::string const near = did_you_mean(entry.key, allowed_);
+    mistake(entry.place,
+            fmt::format("unknown {} '{}' in {}; allowed are {}{}", entry.item.is(Item::Kind::table) ? "table" : "key",
+                        entry.key, title_, join(allowed_), near.empty() ? rather_in(entry.key, title_) : near));
+  }
 }
 
 Item const* find_table(Section& document, std::string_view key) {

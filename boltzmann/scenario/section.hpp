@@ -99,6 +99,7 @@ class Section {
   /// Of the key itself.
   Place key_place(std::string_view key) const { return entry(key) ? entry(key)->place : table_.place; }
   void rename(std::string title) { title_ = std::move(title); }
+  Item const& table() const { return table_; }
   ReadContext& context() { return context_; }
   void mistake(Place const& place, std::string message) { context_.mistakes.add(place, std::move(message)); }
   /// At the value of a key: "key: what".

@@ -68,7 +68,7 @@ OptionTable make_run_options() {
       "no particle moves further than `distance`, no force does more work on it than `energy`, and that it is the part "
       "`courant` of the Courant step; one of these three, or several",
       "steps are not divided");
-  all.add_said("stop", "a [condition](#stop)", "ends the run before its last step", "none");
+  all.add_said("stop", text("a [condition](#stop)"), "ends the run before its last step", "none");
   all.at("step").needed = "0.01";
   return all;
 }
@@ -95,7 +95,7 @@ OptionTable make_units_options() {
 
 OptionTable make_sweep_options() {
   OptionTable all;
-  all.add_said("seeds", "a whole number, 1 to 10000",
+  all.add_said("seeds", whole(1, 10'000),
                "how many runs there are of each value; they have the seed of `[run]`, the next one, ...", "`1`");
   all.add_said("vary", "a table: for each key the list of its values",
                "values are whatever the key is: numbers, quantities, words, lists, tables. Keys are written as for "
@@ -105,7 +105,7 @@ OptionTable make_sweep_options() {
                "of `sweep.csv` and of the table that is printed. A run counts once: its last row, or its mean since "
                "`from`",
                "all");
-  all.add_said("from", "a time", "the table has means over the rows since then", "the last row");
+  all.add_said("from", number(dimensions::time), "the table has means over the rows since then", "the last row");
   all.add_said("labels", "a list of texts, `[\"coupled\", \"uncoupled\"]`",
                "names of the values, for legends, tables and folders", "the values");
   all.add_said("pictures", "tables, `[[sweep.pictures]]`", "of all runs together", "none");
@@ -116,7 +116,7 @@ OptionTable make_sweep_picture_options() {
   using P = SweepPictureOptions;
   OptionTable all;
   all.add("drawing", &P::drawing, word({"points", "time-series"}), "a point for each value, or curves over time");
-  all.add_said("x", "a key that varies, or a column of diagnoses",
+  all.add_said("x", text("a key that varies, or a column of diagnoses"),
                "of points; of a key with lists the one component that differs", "the key, if only one varies");
   all.add_said("y", "columns of diagnoses, a list or with commas", "upwards");
   all.add("fit", &P::fit, word({"line"}),
@@ -129,8 +129,6 @@ OptionTable make_sweep_picture_options() {
   all.at("y").needed = "\"temperature\"";
   return all;
 }
-
-constexpr char const* ensemble_or_list = "the name of an ensemble, or a list";
 
 OptionTable make_shear_options() {
   using S = BoxOptions::Sheared;
@@ -148,9 +146,9 @@ OptionTable make_shear_options() {
 
 OptionTable make_box_options() {
   OptionTable all;
-  all.add_said("low", "a list of lengths, one for each axis",
+  all.add_said("low", vector(dimensions::length),
                "the lower edges: one, two or three numbers make the space 1D, 2D or 3D");
-  all.add_said("high", "a list of lengths, one for each axis", "the upper edges");
+  all.add_said("high", vector(dimensions::length), "the upper edges");
   std::string kinds;
   for (auto const& word : boundary_words())
     kinds += (kinds.empty() ? "`\"" : "; `\"") + std::string(word.name) + "\"`: " + std::string(word.doc);
@@ -173,7 +171,7 @@ OptionTable make_ensemble_options() {  // long: a table, a row for each key
   using E = EnsembleOptions;
   OptionTable all;
   all.add("name", &E::name, text(), "for the rest of the file, the columns and the legends");
-  all.add_said("class", "a class (`bzm list classes`)", "what each particle is");
+  all.add_said("class", text("a class (`bzm list classes`)"), "what each particle is");
   all.add_of<E>(
       "integrator",
       [](E& of) -> OptionPlace {
@@ -235,10 +233,10 @@ OptionTable make_ensemble_options() {  // long: a table, a row for each key
 
 OptionTable make_class_options() {
   OptionTable all;
-  all.add_said("name", "a text of letters, digits and _", "for `class = ...` of `[[ensembles]]`");
-  all.add_said("base", "a class (`bzm list classes`)",
+  all.add_said("name", text("a text of letters, digits and _"), "for `class = ...` of `[[ensembles]]`");
+  all.add_said("base", text("a class (`bzm list classes`)"),
                "from which it is derived: how its particles move, which fields they have, and which laws act on them");
-  all.add_said("doc", "a text", "one line about it", "none");
+  all.add_said("doc", text(), "one line about it", "none");
   all.add_said("fields", "a list of tables, [`{ name = \"charge\", unit = \"e\" }`](#classesfields)", "its own fields",
                "none");
   all.add_said("rate", "a table of [formulas](#laws-that-are-typed), `rate.charge = \"...\"`",
@@ -291,12 +289,12 @@ OptionTable make_influence_options() {  // long: a table, a row for each key
   static Words<AtCutoff> const ends{
       "at_cutoff", {{AtCutoff::cut, "cut", ""}, {AtCutoff::shift, "shift", ""}, {AtCutoff::switched, "switch", ""}}};
   OptionTable all;
-  all.add_said("law", "a law (`bzm list laws`)", "its parameters stand beside it");
-  all.add_said("on", "the name of an ensemble", "among its particles; for laws from outside: on all of them",
+  all.add_said("law", text("a law (`bzm list laws`)"), "its parameters stand beside it");
+  all.add_said("on", text("the name of an ensemble"), "among its particles; for laws from outside: on all of them",
                "`on`, `between` or `among`");
   all.add_said("between", "the names of two ensembles", "between the particles of two ensembles, both ways",
                "`on` or `between`");
-  all.add_said("by", "the name of an ensemble", "with `on`: who acts; nothing acts back", "the same as `on`");
+  all.add_said("by", text("the name of an ensemble"), "with `on`: who acts; nothing acts back", "the same as `on`");
   all.add_said("among", "a list of names of ensembles",
                "within each of them and between each two, in place of `on` and `between`. A parameter, and `cutoff`, "
                "may be a table "
@@ -331,15 +329,15 @@ OptionTable make_influence_options() {  // long: a table, a row for each key
       "with `on`, of an `energy` in `dihedral`: on each four that three bonds join, or on those of the list, by "
       "the turn about the line from the second to the third",
       "it acts on pairs");
-  all.add_said("particles", "numbers, `\"all\"` or `\"edge\"`",
-               "laws from outside: only on these, written as in `[[ensembles.set]]`", "on all");
-  all.add_said("margin", "a length", "with `particles = \"edge\"`", "0");
+  all.add_said("particles", particles(), "laws from outside: only on these, written as in `[[ensembles.set]]`",
+               "on all");
+  all.add_said("margin", number(dimensions::length, not_negative), "with `particles = \"edge\"`", "0");
   all.add_said(
       "where", "a [formula](#formulas); beside `energy` or `influence` a table of them",
       "laws from outside: only on those for which it is true. Of a typed law: its parts, `{ s = \"(sigma/r)^6\" }`",
       "on all");
-  all.add_said("energy", "a [formula](#laws-that-are-typed)", "instead of `law`: a typed law, by its energy");
-  all.add_said("influence", "a [formula](#laws-that-are-typed)",
+  all.add_said("energy", text("a [formula](#laws-that-are-typed)"), "instead of `law`: a typed law, by its energy");
+  all.add_said("influence", text("a [formula](#laws-that-are-typed)"),
                "instead of `law`: a typed law, by the force (or velocity) that p gets");
   all.add("changes", &I::changes, name_of_quantity(),
           "of a typed law by an influence: it moves nobody, but is added to the rate of that field of those that it "
@@ -362,7 +360,7 @@ OptionTable make_influence_options() {  // long: a table, a row for each key
 OptionTable make_rigid_bond_options() {
   using R = RigidBondOptions;
   OptionTable all;
-  all.add_said("on", "the name of an ensemble", "whose bonds they are, moved by the leap-frog");
+  all.add_said("on", text("the name of an ensemble"), "whose bonds they are, moved by the leap-frog");
   all.add_said("pairs", "`\"bonds\"`, `[[0, 1], [0, 2]]` or `{ file = \"bonds.txt\" }`",
                "which particles: those that are bonded, or others, as `bonds` of `[[ensembles]]` are written",
                "`\"bonds\"`");
@@ -407,12 +405,12 @@ OptionTable make_region_options() {
 
 OptionTable make_set_options() {
   OptionTable all;
-  all.add_said("particles", "numbers, `\"all\"` or `\"edge\"`", "which ones, numbered from 0 in the order of loading",
+  all.add_said("particles", particles(), "which ones, numbered from 0 in the order of loading",
                "`particles` or `where`");
-  all.add_said("margin", "a length",
+  all.add_said("margin", number(dimensions::length, not_negative),
                "with `particles = \"edge\"`: those nearer than this to a face of the block that encloses all",
                "needed by `\"edge\"`");
-  all.add_said("where", "a [formula](#formulas)", "those for which it is true: `\"x < 0.1 && mass > 1\"`",
+  all.add_said("where", text("a [formula](#formulas)"), "those for which it is true: `\"x < 0.1 && mass > 1\"`",
                "`particles` or `where`");
   all.add_said("formulas", "a table of [formulas](#formulas)", "fields that depend on the place", "none");
   all.add("freeze", &SetOptions::freeze, flag(), "they stay where they are");
@@ -458,9 +456,9 @@ OptionTable make_event_options() {
                "particles are added to the ensemble `on`: keys of [[ensembles]], of which those that are left out are "
                "as its own table has them, but velocities are zero",
                "none");
-  all.add_said("on", ensemble_or_list, "whose velocities are changed; or to whom particles are added",
+  all.add_said("on", option::ensembles(), "whose velocities are changed; or to whom particles are added",
                "all that have velocities");
-  all.add_said("where", "a [formula](#formulas)", "of those the ones for which it is true then", "all");
+  all.add_said("where", text("a [formula](#formulas)"), "of those the ones for which it is true then", "all");
   all.add("temperature", &E::temperature, number(dimensions::temperature, not_negative),
           "velocities, relative to their common one, are scaled to it: a quench");
   all.add("scale", &E::scale, number(dimensions::none), "velocities are multiplied by it");
@@ -471,8 +469,8 @@ OptionTable make_event_options() {
 
 OptionTable make_equilibration_options() {
   OptionTable all = equilibration_bath_options();
-  all.add_said("time", "a time, zero or more", "how long");
-  all.add_said("on", ensemble_or_list, "who is brought to it", "all that leap-frog moves");
+  all.add_said("time", number(dimensions::time, not_negative), "how long");
+  all.add_said("on", option::ensembles(), "who is brought to it", "all that leap-frog moves");
   all.at("time").needed = "\"2 ps\"";
   return all;
 }

@@ -13,7 +13,7 @@ OptionTable const& dye_options() {
   static OptionTable const all = [] {
     using namespace option;
     OptionTable all;
-    all.add_said("on", "the name of an ensemble", "of class Dye or Tracer, to which the released ones are added");
+    all.add_said("on", text("the name of an ensemble"), "of class Dye or Tracer, to which the released ones are added");
     all.add_of<DyeOptions>(
         "from", [](DyeOptions& dye) -> OptionPlace { return std::span(dye.from); }, vector(dimensions::length),
         "where it is released, or one end of a line of places");

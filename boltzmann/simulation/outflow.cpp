@@ -147,12 +147,12 @@ OptionTable const& outflow_options() {
     OptionTable table;
     table.add("every", &O::every, whole(1, std::numeric_limits<double>::infinity()),
               "so many steps from one look to the next");
-    table.add_said("on", "the name of an ensemble, or a list", "who leaves", "all tracers and vortices");
+    table.add_said("on", ensembles(), "who leaves", "all tracers and vortices");
     table.add("from", &O::how, &OutflowPlane::from, vector(dimensions::length),
               "a point of the plane beyond which nobody stays");
     table.add("direction", &O::how, &OutflowPlane::direction, vector(dimensions::none),
               "across that plane, downstream, of any length");
-    table.add_said("into", "the name of an ensemble",
+    table.add_said("into", text("the name of an ensemble"),
                    "of vortices, which takes up those who leave: a wake that is remeshed on a wider lattice",
                    "they are gone");
     table.at("from").needed = "[10, 0]";

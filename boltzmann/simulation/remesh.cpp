@@ -463,8 +463,7 @@ OptionTable const& remesh_options() {
     OptionTable table;
     table.add("every", &R::every, whole(1, std::numeric_limits<double>::infinity()),
               "so many steps from one remeshing to the next");
-    table.add_said("on", "the name of an ensemble, or a list", "who is remeshed, each by itself",
-                   "all that have vorticity");
+    table.add_said("on", ensembles(), "who is remeshed, each by itself", "all that have vorticity");
     table.add("spacing", &R::how, &Remeshing::spacing, number(dimensions::length, positive),
               "of the nodes, which stand where those of the loader `fill` do; it must divide periodic axes");
     table.add("kernel", &R::how, &Remeshing::kernel, remesh_kernel_words(),

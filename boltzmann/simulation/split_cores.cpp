@@ -230,8 +230,7 @@ OptionTable const& core_splitting_options() {
     OptionTable table;
     table.add("every", &S::every, whole(1, std::numeric_limits<double>::infinity()),
               "so many steps from one splitting to the next");
-    table.add_said("on", "the name of an ensemble, or a list", "whose cores are split, each by itself",
-                   "all of class `Spreading`");
+    table.add_said("on", ensembles(), "whose cores are split, each by itself", "all of class `Spreading`");
     table.add("above", &S::how, &CoreSplitting::above, number(dimensions::length, positive),
               "cores that are wider are split, into 4 around the old place in 2D, 6 in 3D");
     table.add("ratio", &S::how, &CoreSplitting::ratio, number(dimensions::none, {0.5, 0.95, false}),

@@ -200,8 +200,9 @@ class SweepProgress {
     auto const total = static_cast<double>(plan_.runs());
     double const now = static_cast<double>(done_) + parts;
     worked += static_cast<double>(here_);
-    double const left = worked > 0 ? (total - now) / worked * elapsed() : 1e9;
-    return fmt::format("{:.0f} % of all, {} left", std::floor(100 * now / total), duration_text(left));
+    std::string const part = fmt::format("{:.0f} % of all", std::floor(100 * now / total));
+    if (worked < 0.02) return part;  // what comes before the first steps would count for thousands of them
+    return part + fmt::format(", {} left", duration_text((total - now) / worked * elapsed()));
   }
 
   SweepPlan const& plan_;

@@ -86,14 +86,23 @@ def plain(name: str) -> str:
     return name[:-1] if name.endswith("_") and keyword.iskeyword(name[:-1]) else name
 
 
+class Said:
+    """A table, as it was said: its lines, and what is told of it."""
+
+    __slots__ = ("heading", "lines", "place", "positions", "wrong")
+
+    def __init__(self, heading: str, lines: list[str], place: str, positions=None):
+        self.heading, self.lines, self.place, self.positions = heading, [heading, *lines], place, positions
+        self.wrong = False  # some of it is a mistake
+
+
 class Document:
     """The tables so far, on top of the text of a file, if there is one."""
 
     def __init__(self, source: str = "", file: str = "python"):
         self.source, self.file = source, file
-        self._lines: list[tuple[str, str | None]] = []  # behind the source: a line, and where it was said
+        self._said: list[Said] = []  # behind the source
         self._top: list[tuple[str, str | None]] = []
-        self._names: set[str] = set()
 
     def top(self, name: str, given, place: str) -> None:
         """A key outside of all tables: the title."""
@@ -101,40 +110,60 @@ class Document:
 
     def table(self, name: str, keys: dict, place: str) -> None:
         """[name], once."""
-        if name in self._names:
+        said = self._new(f"[{name}]", keys, place)
+        if any(one.heading == said.heading for one in self._said):
             raise Error(f"{place}: there is a table [{name}] already")
-        self._names.add(name)
-        self._add(f"[{name}]", keys, place)
+        self._said.append(said)
 
-    def append(self, name: str, keys: dict, place: str) -> None:
-        """One more [[name]]."""
-        self._add(f"[[{name}]]", keys, place)
+    def append(self, name: str, keys: dict, place: str, positions=None, once: bool = False) -> Said | None:
+        """One more [[name]]; ``once``: if the same is there already, that is returned, and it is not said twice."""
+        said = self._new(f"[[{name}]]", keys, place, positions)
+        for one in self._said if once else ():
+            if one.lines == said.lines:
+                return one
+        self._said.append(said)
+        return None
 
-    def _add(self, heading: str, keys: dict, place: str) -> None:
-        lines = [(heading, place)]
-        for name, given in keys.items():
-            if given is not None:
-                lines.append((f"{key(plain(name))} = {value(given, plain(name))}", place))
-        self._lines += lines
+    def _new(self, heading: str, keys: dict, place: str, positions=None) -> Said:
+        """It takes the place of those of its kind that were wrong when the simulation was to be made."""
+        pairs = [(plain(name), given) for name, given in keys.items() if given is not None]
+        said = Said(heading, [f"{key(name)} = {value(given, name)}" for name, given in pairs], place, positions)
+        self._said = [one for one in self._said if not (one.wrong and one.heading == heading)]
+        return said
+
+    def positions(self) -> list:
+        """Arrays of places, of those who have some."""
+        return [one.positions for one in self._said if one.positions is not None]
+
+    def made(self) -> None:
+        """Nothing of it is wrong."""
+        for one in self._said:
+            one.wrong = False
 
     def text(self) -> str:
         top = "".join(line + "\n" for line, _ in self._top)
         source = self.source if not self.source or self.source.endswith("\n") else self.source + "\n"
-        return top + source + "".join(line + "\n" for line, _ in self._lines)
+        return top + source + "".join(line + "\n" for one in self._said for line in one.lines)
 
     def _place(self, line: int) -> str | None:
-        """Where a line of text() was said; None: it stands in the file, and so many lines down there."""
+        """Where a line of text() was said, which is wrong; None: it stands in the file, and so many lines down there."""
         if line <= len(self._top):
             return self._top[line - 1][1]
         line -= len(self._top) + len(self.source.splitlines())
-        if 1 <= line <= len(self._lines):
-            return self._lines[line - 1][1]
+        if line < 1:
+            return None
+        for one in self._said:
+            if line <= len(one.lines):
+                one.wrong = True
+                return one.place
+            line -= len(one.lines)
         return None
 
     def located(self, errors: ScenarioErrors, set_place: str = "") -> ScenarioErrors:
         """The same mistakes, at their places in Python."""
         pattern = re.compile(rf"^{re.escape(self.file)}:(\d+):(\d+): (.*)$", re.S)
         lines = []
+        self.made()
         for one in errors.lines:
             if one.startswith("--") and set_place:
                 lines.append(f"{set_place}: {re.sub(r'^--(set )?', '', one)}")
@@ -150,5 +179,5 @@ class Document:
 
     def copy(self) -> "Document":
         other = Document(self.source, self.file)
-        other._lines, other._top, other._names = list(self._lines), list(self._top), set(self._names)
+        other._said, other._top = list(self._said), list(self._top)
         return other

@@ -31,7 +31,8 @@ class Simulation:
 
     ``Simulation(units="reduced", run=dict(step=0.005), box=dict(low=[0], high=[1]))`` gives top-level tables;
     ``ensemble``, ``influence``, ``dissipation``, ``diagnosis``, ``wall``, ``event``, ``view`` and ``add`` one more of a
-    kind. Nothing is made before it is needed; then all mistakes are told at once, each at its line."""
+    kind. Nothing is made before it is needed; then all mistakes are told at once, each at its line. What was wrong is
+    replaced by what is said next of its kind."""
 
     def __init__(self, title: str | None = None, **tables):
         self._start(Document())
@@ -63,7 +64,6 @@ class Simulation:
         put(self, "_built", None)
         put(self, "_built_digest", "")
         put(self, "_begun", False)
-        put(self, "_places", [])  # of arrays, for a box
         put(self, "_files", {})  # of arrays that are too long for a text: name and path
         put(self, "_temporary", None)
         put(self, "_functions", {})  # number: (function, kind, every, how many arguments)
@@ -87,13 +87,15 @@ class Simulation:
         else:
             self._document.top(name, given, place)
 
-    def _say(self, table: str, keys: dict) -> None:
+    def _say(self, table: str, keys: dict, positions=None) -> None:
         if self._begun:
             raise Error(
                 f"{caller()}: the run has begun; what acts is said before its first step (diagnoses and observers may "
                 "come at any time)"
             )
-        self._document.append(table, keys, caller())
+        again = self._document.append(table, keys, caller(), positions, once=True)  # by a cell that is run again
+        if again:
+            python_warnings.warn(f"this stands in [[{table}]] already, by {again.place}; it is not said twice", stacklevel=3)
         self._make_anew()
 
     def _make_anew(self) -> None:
@@ -121,20 +123,21 @@ class Simulation:
         if not isinstance(name, str) or not isinstance(class_, str):
             raise Error(f"{place}: ensemble: a name and a class are texts, \"atoms\", \"Newton\"")
         keys = {"name": name, "class": class_}
+        places = None
         if position is not None:
             if load is not None:
                 raise Error(f"{place}: position, load: one of both says where the particles are")
-            load, fields = self._given_places(name, class_, position, fields, place)
+            load, fields, places = self._given_places(name, class_, position, fields, place)
         for field, given in fields.items():
             if isinstance(given, np.ndarray) and not np.isfinite(given).all():
                 raise Error(f"{place}: {field}: some of its numbers are not finite")
-        self._say("ensembles", {**keys, "load": load, **fields})
+        self._say("ensembles", {**keys, "load": load, **fields}, places)
         return self[name]
 
     def _given_places(self, name: str, class_: str, position, fields: dict, place: str):
         if isinstance(position, (list, tuple)) and _has_texts(position):
             places = [one if isinstance(one, (list, tuple)) else [one] for one in position]
-            return {"kind": "positions", "positions": places}, fields
+            return {"kind": "positions", "positions": places}, fields, None
         try:
             places = np.asarray(position, dtype=np.float64)
         except (TypeError, ValueError):
@@ -145,7 +148,6 @@ class Simulation:
             raise Error(f"{place}: position: an array of shape (N, 1), (N, 2) or (N, 3) is needed, not {np.shape(position)}")
         if not np.isfinite(places).all():
             raise Error(f"{place}: position: some of its numbers are not finite")
-        self._places.append(places)
         arrays = {"position": places}
         others = {}
         for field, given in fields.items():
@@ -155,7 +157,7 @@ class Simulation:
             else:
                 others[field] = given
         if sum(a.size for a in arrays.values()) <= _numbers_in_text:
-            return {"kind": "positions", "positions": places}, fields
+            return {"kind": "positions", "positions": places}, fields, places
         path = os.path.join(self._temporary_folder(), f"{name}-{len(self._files)}.h5")
         _core.write_frame(
             path,
@@ -165,7 +167,7 @@ class Simulation:
             [(plain(f), a.shape[1], np.ascontiguousarray(a)) for f, a in arrays.items()],
         )
         self._files[path] = f"{name}-start.h5"
-        return {"kind": "frame", "path": path}, others
+        return {"kind": "frame", "path": path}, others, places
 
     def _temporary_folder(self) -> str:
         if self._temporary is None:
@@ -249,7 +251,7 @@ class Simulation:
         document = self._document
         if not self._box_given and not self._begun:
             document = document.copy()
-            document.table("box", _box_around(self._places), caller())
+            document.table("box", _box_around(document.positions()), caller())
         o = self._overrides
         core = self._located(
             document, lambda: _core.Core(self._source(document), o["set"], o["steps"], o["seed"], o["threads"])
@@ -264,6 +266,7 @@ class Simulation:
         self._attendants = {}
         for number, (_, kind, every, _) in self._functions.items():
             self._attendants[number] = core.attend(every, number, kind == "change")
+        self._document.made()
         self._built_digest, self._built = digest, core
         return core
 

@@ -429,6 +429,7 @@ TEST(Check, TakesTheOptionsOfRun) {
   Folder folder;
   EXPECT_NE(bzm({"check", "copper", "--steps", "1e2", "--set", "run.seed=5"}, folder.string()).out.find("100 steps"),
             std::string::npos);
+  EXPECT_NE(bzm({"check", "copper", "--time", "32.73 fs"}, folder.string()).out.find("1000 steps"), std::string::npos);
   auto const wrong = bzm({"check", "copper", "--set", "run.step=-1"}, folder.string());
   EXPECT_EQ(wrong.status, 2);
   EXPECT_NE(wrong.err.find("--set run.step=-1: step"), std::string::npos) << wrong.err;

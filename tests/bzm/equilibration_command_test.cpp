@@ -3,7 +3,9 @@
 
 #include <boltzmann/files/csv.hpp>
 
+#include <chrono>
 #include <cmath>
+#include <string>
 
 namespace boltzmann::equilibration_command_test {
 namespace {
@@ -49,10 +51,20 @@ struct PreparationCommand : testing::Test {
   /// A run without a stop, in "whole".
   void whole() const {
     write_text(folder / "gas.toml", gas);
+    auto const begun = std::chrono::steady_clock::now();
     auto const outcome = run({"run", "gas.toml", "--out", "whole"});
+    std::chrono::duration<double> const seconds = std::chrono::steady_clock::now() - begun;
     ASSERT_EQ(outcome.status, 0) << outcome.err;
+    expect_steps_timed_alone(outcome.err, seconds.count());
     double const first = read_csv((folder / "whole/diagnoses.csv").string()).column("temperature")[0];
     EXPECT_NEAR(first, 2, 6 * 2 / std::sqrt(3000.0));  // the energy of 6000 degrees of freedom
+  }
+  /// 2000 steps come before the 40 that are counted: these go by as fast as they are, not as if they took all the time.
+  static void expect_steps_timed_alone(std::string const& told, double seconds) {
+    EXPECT_NE(told.find("equilibrating\n"), std::string::npos) << told;
+    auto const at = told.find("step 4 of 40, ");
+    ASSERT_NE(at, std::string::npos) << told;
+    EXPECT_GT(std::stod(told.substr(at + 14)) * seconds, 200) << told;
   }
   void expect_resumed() const {
     auto const resumed = run({"resume", "stopped", "--steps", "40"});

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -19,9 +20,23 @@ TEST(RenamedWords, AreToldWhereTheyAreAllowed) {
 }
 
 TEST(RenamedWords, ThoseOfOtherProgramsAreToldToo) {
-  for (auto const& [elsewhere, here] : words_elsewhere)
-    EXPECT_EQ(did_you_mean(elsewhere, std::vector<std::string>{std::string(here), "euler"}),
-              "; it is called '" + std::string(here) + "' here");
+  for (auto const& [here, elsewhere] : words_elsewhere) {
+    std::istringstream words{std::string(elsewhere)};
+    for (std::string word; words >> word;)
+      EXPECT_EQ(did_you_mean(word, std::vector<std::string>{std::string(here), "euler"}),
+                "; it is called '" + std::string(here) + "' here");
+  }
+  EXPECT_EQ(did_you_mean("NVT", std::vector<std::string>{"nose-hoover"}), "; it is called 'nose-hoover' here");
+}
+
+TEST(NearWords, HaveHalfOfTheirLettersInCommonOrBeginAlike) {
+  std::vector<std::string> const words{"temperature", "temper", "low", "n", "r", "steps", "Radius"};
+  EXPECT_EQ(nearest("temprature", words), "temperature");
+  EXPECT_EQ(nearest("tem", words), "temper");  // the shortest
+  EXPECT_EQ(nearest("R", words), "r");
+  EXPECT_EQ(nearest("rad", words), "Radius");
+  EXPECT_EQ(nearest("spets", words), "steps");
+  for (char const* far : {"lj", "nvt", "e", "k", "box", "fix"}) EXPECT_EQ(nearest(far, words), "") << far;
 }
 
 }  // namespace

@@ -82,6 +82,15 @@ TEST(Lattice, DensitiesAreThoseOfCrystals) {
   }
 }
 
+TEST(Lattice, ConstantsAreEdgesOfTheCube) {
+  // Copper's cube of 3.615 angstrom has neighbours at 2.556, iron's of 2.866 at 2.482, silicon's of 5.431 at 2.352.
+  EXPECT_NEAR(spacing_for_constant(Lattice::fcc, 3, 3.615), 2.556, 5e-4);
+  EXPECT_NEAR(spacing_for_constant(Lattice::bcc, 3, 2.866), 2.482, 5e-4);
+  EXPECT_NEAR(spacing_for_constant(Lattice::diamond, 3, 5.431), 2.352, 5e-4);
+  EXPECT_EQ(spacing_for_constant(Lattice::triangular, 2, 3), 3);
+  EXPECT_EQ(spacing_for_constant(Lattice::hcp, 3, 3), 3);
+}
+
 /// How many sites are at each square distance, in spacings, from a site in the middle of a block.
 std::map<long, int> shells(Lattice kind, double farthest) {
   LatticeBlock const block{kind, 1, {6, 6, 6}, {}};

@@ -341,6 +341,8 @@ TEST(Ensemble, AClassWithoutTableOfItsOwnHasItsParentsFields) {
   EXPECT_EQ(e.doubles(), 8u);
   EXPECT_EQ(e.row(1)[7], 5);
   EXPECT_EQ(e.row(0)[7], 0);
+  std::string const why = message([&] { e.field("secret"); });
+  EXPECT_NE(why.find("; its class holds more, which its fields() does not name"), std::string::npos) << why;
 }
 
 // ---- equations of one's own ---------------------------------------------------------------------------------------

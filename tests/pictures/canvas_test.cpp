@@ -409,6 +409,10 @@ TEST(Ranges, AreTheContentWithThreePercent) {
   EXPECT_EQ(given[0].low, 0);
   EXPECT_NEAR(given[0].high, 12.3, 1e-12);
   EXPECT_EQ(given[1].high, 100);
+  canvas.axes({"x", "", 4, nan}, {"y", "", nan, 10});  // three per cent of what is shown
+  auto const cut = axis_ranges(canvas, 1);
+  EXPECT_NEAR(cut[0].high, 12.24, 1e-12);
+  EXPECT_NEAR(cut[1].low, -10.6, 1e-12);
 }
 
 TEST(Ranges, AreSaneForAnything) {

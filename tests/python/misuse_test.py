@@ -220,6 +220,31 @@ def test_all_mistakes_at_once_each_at_its_line():
         assert re.search(rf"misuse_test.py:{first + line}: .*{re.escape(what)}", told), told
 
 
+def test_what_was_wrong_is_said_again():
+    sim = bz.Simulation(
+        units="reduced", run={"step": 0.005, "steps": 10}, box=dict(low=[0, 0], high=[8, 8], boundary="periodic")
+    )
+    block = dict(kind="block", lattice="square", spacing=1.6, counts=[5, 5])
+    law = dict(on="atoms", depth=1, r0=1.1, cutoff=2.5)
+    sim.ensemble("atoms", "Neuton", load=block)
+    sim.influence("lenard-jones", **law)
+    sim.dissipation("langevin", on="atoms", temperature=1, rate=1)
+    with pytest.raises(bz.ScenarioErrors, match="Neuton"):
+        sim.check()
+    sim.ensemble("atoms", "Newton", load=block)
+    with pytest.raises(bz.ScenarioErrors, match="lenard-jones"):
+        sim.check()  # nothing that was wrong is left out without a word
+    sim.influence("lennard-jones", **law)
+    sim.check()
+    once = gas()
+    once.dissipation("langevin", on="atoms", temperature=1, rate=1)
+    once.run(10)
+    with pytest.warns(UserWarning, match=r"stands in \[\[influences\]\] already, by misuse_test.py"):
+        sim.influence("lennard-jones", **law)  # as by a cell that is run again
+    sim.run(10)
+    assert (sim.atoms.position == once.atoms.position).all()
+
+
 def test_mistakes_of_a_file_stand_at_its_lines(tmp_path):
     path = tmp_path / "wrong.toml"
     path.write_text('[units]\nbase = "reduced"\n\n[run]\nstpe = 1\n')

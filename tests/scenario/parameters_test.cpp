@@ -246,7 +246,7 @@ TEST(AbsentKeys, AreToldAsTheirTablesHaveThem) {
   EXPECT_EQ(threads.high, 4096);
   // One that is read by code says in words what it may be.
   auto const& stop = of("run.stop");
-  EXPECT_EQ(stop.kind, "any");
+  EXPECT_EQ(stop.kind, "text");
   EXPECT_EQ(stop.doc, "ends the run before its last step: a condition");
   EXPECT_EQ(stop.otherwise, "none");
 

@@ -160,6 +160,17 @@ TEST(Pictures, AreSaidOtherwiseByWords) {
   EXPECT_THROW(picture_by_words(*run, {{"drawing", "cartesian"}, {"low", "1"}}), ScenarioErrors);  // of no colour
 }
 
+TEST(Pictures, KeepTheEndsOfTheQuantityThatWordsAskFor) {
+  auto const run = parse_scenario(plain + "[output]\n[[output.pictures]]\ncolour = \"speed\"\nhigh = 3\n" +
+                                      "[[output.pictures]]\nfile = \"masses.png\"\ncolour = \"mass\"\nhigh = 2\n",
+                                  "test.toml");
+  EXPECT_EQ(picture_by_words(*run, {}).high, 3);
+  EXPECT_EQ(picture_by_words(*run, {{"colour", "speed"}}).high, 3);
+  EXPECT_EQ(picture_by_words(*run, {{"colour", "mass"}}).high, 2);
+  EXPECT_TRUE(std::isnan(picture_by_words(*run, {{"colour", "velocity.x"}}).high));
+  EXPECT_EQ(picture_by_words(*run, {{"colour", "velocity.x"}, {"high", "4"}}).high, 4);
+}
+
 TEST(Views, AreNamedOnTheCommandLine) {
   Overrides overrides;
   overrides.set = {"views.Hot.colour=speed"};

@@ -37,7 +37,7 @@ OptionTable const& embedded_atom_options() {  // long: a table, a row for each k
         "what pairs, densities and atoms in densities have as energies: of Sutton and Chen, of Gupta, as typed, or a "
         "file's");
     all.at("potential").needed = "\"sutton-chen\"";
-    all.add_said("on", "the name of an ensemble, or a list", "the atoms", "all that a force moves");
+    all.add_said("on", ensembles(), "the atoms", "all that a force moves");
     all.add_said("elements", "a table, { atoms = \"Cu\" }", "of a file with several: the element of each ensemble",
                  "the ensemble's name");
     all.add("file", &E::file, path(),
@@ -60,9 +60,10 @@ OptionTable const& embedded_atom_options() {  // long: a table, a row for each k
     add("q", &E::gupta, &Gupta::q, dimensions::none, "of `\"gupta\"`: how fast the roots of densities fall", "2.278");
     add("r0", &E::gupta, &Gupta::r0, dimensions::length, "of `\"gupta\"`: the distance of neighbours",
         "\"2.556 angstrom\"");
-    all.add_said("pair", "a formula of r", "of `\"formulas\"`: the energy V of a pair");
-    all.add_said("density", "a formula of r", "of `\"formulas\"`: the density rho that an atom makes, a pure number");
-    all.add_said("embedding", "a formula of rho", "of `\"formulas\"`: the energy F of an atom in a density");
+    all.add_said("pair", text("a formula of r"), "of `\"formulas\"`: the energy V of a pair");
+    all.add_said("density", text("a formula of r"),
+                 "of `\"formulas\"`: the density rho that an atom makes, a pure number");
+    all.add_said("embedding", text("a formula of rho"), "of `\"formulas\"`: the energy F of an atom in a density");
     all.add_said("parameters", "a table, { xi = \"1.2 eV\" }", "of `\"formulas\"`: what they may use", "none");
     all.at("pair").needed = "\"A*exp(-p*(r/r0 - 1))\"";
     all.at("density").needed = "\"exp(-2*q*(r/r0 - 1))\"";
@@ -121,7 +122,7 @@ OptionTable const& stillinger_weber_options() {
     OptionTable all;
     auto const add = [&](char const* key, auto member, OptionKind const& kind, char const* doc,
                          char const* otherwise = "") { all.add(key, &S::law, member, kind, doc, otherwise); };
-    all.add_said("on", "the name of an ensemble, or a list", "the atoms", "all that a force moves");
+    all.add_said("on", ensembles(), "the atoms", "all that a force moves");
     add("epsilon", &StillingerWeber::epsilon, number(dimensions::energy, positive),
         "the depth of a pair's energy; of silicon `\"2.1683 eV\"`");
     add("sigma", &StillingerWeber::sigma, number(dimensions::length, positive),

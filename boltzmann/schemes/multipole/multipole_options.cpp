@@ -16,14 +16,14 @@ OptionTable const& multipole_options() {
     all.at("on").otherwise =
         "`Coulomb` for `\"coulomb\"`, `Kepler` for `\"gravity\"`, `Vortex`, `Inviscid`, `Viscous`, `Diffusive` for "
         "`\"biot-savart\"` and its kind";
-    all.add_said("softening", "a length, zero or more", "Plummer's length, within which the force is weaker", "0");
+    all.add_said("softening", number(dimensions::length, not_negative),
+                 "Plummer's length, within which the force is weaker", "0");
     all.add_said(
-        "transposed", "a number from 0 to 1",
+        "transposed", number(dimensions::none, {0, 1}),
         "how much the stretching of vorticity in 3D is of the transposed form, which keeps its sum; of vortices", "1");
     all.add("tolerance", &MultipoleOptions::tolerance, number(dimensions::none, NumberRange{1e-10, 0.1}),
             "error of all forces or velocities, as a part of their rms; it is measured, and kept");
-    all.add_said("test_particles", "the name of an ensemble, or a list", "who feels the field without making it",
-                 "none");
+    all.add_said("test_particles", ensembles(), "who feels the field without making it", "none");
     all.add("background", &MultipoleOptions::background, flag(),
             "a uniform background makes a box that is periodic along all axes neutral");
     all.add(

@@ -40,8 +40,8 @@ class PairScheme final : public Scheme {
   template <class P, class Law>
   requires(!std::same_as<Law, FormulaLaw>) void internal(Ensemble<P>& ensemble, Law const& law, double cutoff) {
     static_assert(PairLaw<Law, P, P>,
-                  "a pair law is a function law(p, q) of two particles, generic in the number type: [](auto const& p, "
-                  "auto const& q) { ... }");
+                  "a pair law is a function law(p, q) of two particles, generic in the number type, [](auto const& p, "
+                  "auto const& q) { ... }, which reads fields that their classes have");
     add_pairs(ensemble, ensemble, near_kernels<P, P, Law>(), keep(law), traits_of(law), cutoff);
   }
 
@@ -53,8 +53,8 @@ class PairScheme final : public Scheme {
   template <class P, class Q, class Law>
   requires(!std::same_as<Law, FormulaLaw>) void between(Ensemble<P>& a, Ensemble<Q>& b, Law const& law, double cutoff) {
     static_assert(PairLaw<Law, P, Q>,
-                  "a pair law is a function law(p, q) of two particles, generic in the number type: [](auto const& p, "
-                  "auto const& q) { ... }");
+                  "a pair law is a function law(p, q) of two particles, generic in the number type, [](auto const& p, "
+                  "auto const& q) { ... }, which reads fields that their classes have");
     auto const kept = keep(law);
     add_pairs(a, b, near_kernels<P, Q, Law>(), kept, traits_of(law), cutoff);
     if constexpr (symmetry_of<Law>() != Symmetry::one_way)
@@ -66,8 +66,8 @@ class PairScheme final : public Scheme {
   requires(!std::same_as<Law, FormulaLaw>) void connect(Ensemble<P>& ensemble,
                                                         std::vector<Connection> const& connections, Law const& law) {
     static_assert(PairLaw<Law, P, P>,
-                  "a pair law is a function law(p, q) of two particles, generic in the number type: [](auto const& p, "
-                  "auto const& q) { ... }");
+                  "a pair law is a function law(p, q) of two particles, generic in the number type, [](auto const& p, "
+                  "auto const& q) { ... }, which reads fields that their classes have");
     add_connections(ensemble, connections, connection_kernels<P, Law>(), keep(law), traits_of(law));
   }
 

@@ -64,7 +64,7 @@ OptionTable make_rezone_options() {
   OptionTable all;
   all.add("every", &R::every, whole(1, std::numeric_limits<double>::infinity()),
           "so many steps from one rezoning to the next");
-  all.add_said("on", "the name of an ensemble, or a list", "who is rezoned", "all that are smooth");
+  all.add_said("on", ensembles(), "who is rezoned", "all that are smooth");
   all.add("by", &R::policy, &Rezoning::by, rezone_by_words(),
           "density, or mass / density, the space that a particle takes");
   all.add("split_above", &R::policy, &Rezoning::split_above, density_or_volume(),
