@@ -150,7 +150,7 @@ void Simulation::stretch_box(double dt) {
     if ((step_ + 1) % barostat->every() != 0) continue;
     if (is_divided()) gather_particles();  // all ranks stretch all
     work_ += barostat->act(stretched_system(), context);
-    influences_.outdated();
+    influences_.particles_changed();
   }
 }
 

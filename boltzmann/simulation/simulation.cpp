@@ -438,6 +438,7 @@ void Simulation::begin() {
   equilibrate_now();  // also for no steps: what is stored of them is where another run goes on
   establish_flow();
   begun_ = true;
+  if (influences_.of_others() && observation_due()) calculate(time());
   observe_now();
 }
 
@@ -510,8 +511,10 @@ bool Simulation::take_step(int direction, FusedSteps* whole, bool last) {
   if (!changes_.empty()) adapt_now();
   if (!events_.empty()) happen_now();
   if (!observations_.empty()) {
-    if (whole && observation_due()) whole->store(time());
-    if (last && observation_due()) calculate(time());
+    if (whole && observation_due())
+      whole->store(time());
+    else if ((last || influences_.of_others()) && observation_due())
+      calculate(time());  // what the next step would begin with all the same
     observe_now();
   }
   for (auto const& one : progress_)
