@@ -636,6 +636,7 @@ void Simulation::restore(std::int64_t step, double step_size, std::uint64_t seed
   work_ = state[5];
   seed_ = seed;
   minimisation_.reset();
+  equilibrations_.clear();
   begun_ = true;  // the start is behind it
   std::size_t at = 6;
   auto const next = [&] {
@@ -651,7 +652,12 @@ void Simulation::restore(std::int64_t step, double step_size, std::uint64_t seed
     std::copy_n(state.begin() + static_cast<std::ptrdiff_t>(at), 6, edges.begin());
     at += 6;
     for (auto* scheme : schemes_) {
-      scheme->box().edges(edges);
+      Box& box = scheme->box();
+      auto stretched = box.edges();
+      for (std::size_t a = 0; a < 3; ++a)  // walls are where the time says
+        if (static_cast<int>(a) < box.dimension() && box.periodic(static_cast<int>(a)))
+          stretched[a] = edges[a], stretched[3 + a] = edges[3 + a];
+      box.edges(stretched);
       scheme->box_changed();
     }
     for (auto const& barostat : barostats_) barostat->restore(next());

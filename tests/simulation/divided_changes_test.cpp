@@ -29,6 +29,7 @@ namespace boltzmann::divided_changes_test {
 namespace {
 
 using test::expect_same_bits;
+using test::expect_to_go_on;
 using test::Make;
 using test::melt;
 using test::scenario;
@@ -68,6 +69,19 @@ TEST(DividedEvents, ChangeVelocitiesLawsAndMethods) {
             true);
       },
       40, {2, 3, 5});
+}
+
+TEST(DividedEvents, OfMethodsThatABathBeforeTheRunCouldNotHave) {
+  expect_to_go_on([](World& world) {
+    melt<2>(world, 20, 0.5, Boundary::periodic);
+    auto& atoms = part_of<Ensemble<Newton<2>>>(world, 0);
+    Simulation& simulation = *world.simulation;
+    auto bath = std::make_shared<LangevinBath>(1.0, 1.0, 1.0);
+    bath->on(atoms);
+    simulation.equilibrate(bath, 2);
+    simulation.happen(
+        0.03, [&] { simulation.integrate(atoms, Method::rk2); }, true);
+  });
 }
 
 TEST(DividedEvents, OfScenarios) {
@@ -207,6 +221,24 @@ void add_bath(World& world, AnyEnsemble& ensemble) {
   auto& bath = world.make<LangevinBath>(1.0, 1.0, 1.0);
   bath.on(ensemble);
   world.simulation->add(bath);
+}
+
+TEST(DividedBarostats, GoOnBesideAPiston) {
+  expect_to_go_on([](World& world) {
+    auto& atoms = world.make<Ensemble<Newton<2>>>("atoms");
+    Box box(Vector{0., 0.}, Vector{21., 20.7}, {Boundary::reflecting, Boundary::periodic});
+    box.wall(0, Box::End::low, {.velocity = {0.2}});
+    auto& scheme = world.make<PairScheme>(box, 2.5);
+    block_load(atoms, {Lattice::square, 1.15, {18, 18, 1}, {0.3, 0.3, 0}});
+    maxwellian_load(atoms, {.temperature = 1, .seed = test_seed(3)});
+    scheme.internal(atoms, LennardJones{1.0, 1.0});
+    world.simulation = &world.make<Simulation>(scheme, 0.004);
+    add_bath(world, atoms);
+    BarostatOptions options{.pressure = 0.5, .temperature = 1, .compressibility = 0.1, .rate = 5};
+    options.every = 4;
+    options.axes = {1};
+    world.simulation->add(Barostat(options, 1));
+  });
 }
 
 TEST(DividedBarostats, StretchAFluid) {
