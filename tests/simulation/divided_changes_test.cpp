@@ -201,6 +201,86 @@ material = { kind = "ideal-gas", gamma = 1.4, specific_heat = 1 }
   expect_same_bits(scenario(text), 22, {2, 3, 5});
 }
 
+// Influences of both hold from one step to the next, since some are of velocities inside of it.
+TEST(DividedRates, OfFieldsBesideThoseThatLeapFrogMoves) {
+  ScenarioText const text{R"toml(
+[units]
+base = "reduced"
+[box]
+low = [0, 0]
+high = [16, 16]
+boundary = "periodic"
+[run]
+step = 0.02
+steps = 40
+cutoff = 1.5
+[[classes]]
+name = "Bird"
+base = "Newton"
+fields = [{ name = "angle", period = "2 pi" }, { name = "turn", sum = true }]
+rate.angle = "0.1*turn + sin(9*time)"
+[[ensembles]]
+name = "walkers"
+class = "Bird"
+integrator = "euler"
+number = 150
+load = { kind = "random" }
+temperature = 1
+[[ensembles]]
+name = "flyers"
+class = "Bird"
+number = 150
+load = { kind = "random" }
+temperature = 1
+[[influences]]
+changes = "turn"
+influence = "sin(q.angle - p.angle + r)"
+among = ["walkers", "flyers"]
+)toml",
+                          "birds.toml", "birds", ""};
+  expect_to_go_on(scenario(text));
+}
+
+// Ranges that follow densities may have grown beyond what lists reach, when somebody looks behind a step whose influences
+// go on to hold.
+TEST(DividedLooks, LeaveListsOfRangesThatGrowAsTheyAre) {
+  ScenarioText const text{R"toml(
+[units]
+base = "reduced"
+[box]
+low = [0, 0]
+high = [16, 16]
+[run]
+step = { courant = 0.3 }
+steps = 60
+[smooth]
+variable_range = { spacings = 3 }
+[[ensembles]]
+name = "gas"
+class = "Smooth"
+density = 1
+range = 3
+specific_energy = 1.5
+load = { kind = "fill", spacing = 1.0, where = "x > 8" }
+material = { kind = "ideal-gas", gamma = 1.4 }
+)toml",
+                          "growing.toml", "growing", ""};
+  auto const rows = [&](bool looks) {
+    World world;
+    scenario(text)(world);
+    world.simulation->threads(1);
+    world.simulation->divide_from(0);
+    if (looks) world.simulation->observe(1, [](Simulation const&) {});
+    world.simulation->run(60);
+    auto const& gas = *world.simulation->ensembles().front();
+    return std::vector<double>(gas.row(0), gas.row(0) + gas.size() * gas.stride());
+  };
+  auto const wanted = rows(false);
+  EXPECT_EQ(rows(true), wanted);
+  for (auto const& failure : test::ThreadTeam(2).run([&](Team&) { EXPECT_EQ(rows(true), wanted); }))
+    EXPECT_EQ(test::line_of(failure), "");
+}
+
 TEST(DividedAdaptations, RemeshVortices) {
   expect_same_bits(scenario("lamb-oseen-exchange", {"ensembles.0.load.where=x^2 + y^2 < 1",
                                                     "ensembles.0.formulas.vorticity=0.0025*exp(-(x^2 + y^2)/0.1)"}),
