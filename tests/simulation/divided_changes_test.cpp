@@ -201,6 +201,42 @@ material = { kind = "ideal-gas", gamma = 1.4, specific_heat = 1 }
   expect_same_bits(scenario(text), 22, {2, 3, 5});
 }
 
+// Lists of forces that are calculated every other step are built for whoever looks in between.
+TEST(DividedLooks, LeaveForcesWithParticlesThatGetOtherOwners) {
+  ScenarioText const text{R"toml(
+[units]
+base = "reduced"
+[box]
+low = [0]
+high = [960]
+[run]
+step = 0.008
+steps = 25
+cutoff = 1.27
+skin = 0.05
+[[ensembles]]
+name = "driven"
+class = "Newton"
+number = 71
+load = { kind = "random", high = [630] }
+[[ensembles]]
+name = "others"
+class = "Newton"
+number = 143
+load = { kind = "random", minimum_distance = 0.64 }
+[[influences]]
+energy = "1.8*exp(-r/0.3)"
+every = 2
+between = ["others", "driven"]
+[[influences]]
+influence = "0.3*sin(5*time)*position"
+from_outside = true
+on = "driven"
+)toml",
+                          "slow.toml", "slow", ""};
+  expect_same_bits(scenario(text), 25, {2, 3});
+}
+
 // Influences of both hold from one step to the next, since some are of velocities inside of it.
 TEST(DividedRates, OfFieldsBesideThoseThatLeapFrogMoves) {
   ScenarioText const text{R"toml(
