@@ -231,7 +231,7 @@ class ClassReader {
           "class as base";
     else if (is_one_of(name, keys_of_ensembles()))
       why = "that is a key of [[ensembles]]; take another name";
-    else if (is_one_of(name, {"box", "image", "id", "influence", "speed"}))
+    else if (is_one_of(name, {"box", "count", "id", "image", "influence", "species", "speed"}))
       why = "it means something else in files and pictures; take another name";
     else if (means_something(name))
       why = "it means something else in formulas; take another name";

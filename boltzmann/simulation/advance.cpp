@@ -25,6 +25,17 @@ Field const* driven_field_not_finite(AnyEnsemble const& ensemble, std::size_t i)
   return driven;
 }
 
+/// And the rates of its fields.
+Division::Carried influences_on(AnyEnsemble& ensemble) {
+  Division::Carried all;
+  if (ensemble.size() == 0) return all;
+  if (ensemble.influence_size() > 0) all.emplace_back(ensemble.influence(0), ensemble.influence_size());
+  std::size_t const rates = ensemble.influences().size() - ensemble.size() * ensemble.influence_size();
+  for (std::size_t k = 0; k * ensemble.size() * ensemble.rate_stride() < rates; ++k)
+    all.emplace_back(ensemble.rate(k), ensemble.rate_stride());
+  return all;
+}
+
 }  // namespace
 
 void Simulation::move_walls(double time) {
@@ -88,7 +99,12 @@ void Simulation::advance(double dt, std::vector<Dissipation*> const& dissipation
     dissipation->advance(context);
     if (division_) division_->moved();
   }
-  if (is_divided()) division_->carry({});
+  // Whoever looks may need other lists: who gets particles by them gets what they go on with.
+  if (is_divided())
+    division_->carry([this](AnyEnsemble const& of) {
+      auto const one = std::find(ensembles_.begin(), ensembles_.end(), &of);
+      return one == ensembles_.end() ? Division::Carried{} : influences_on(**one);
+    });
   check_moves();
   for (auto const* scheme : schemes_)
     if (std::abs(dt) > max_courant * scheme->sound_step() && !(substeps_ && substeps_->courant))
@@ -150,7 +166,7 @@ void Simulation::stretch_box(double dt) {
     if ((step_ + 1) % barostat->every() != 0) continue;
     if (is_divided()) gather_particles();  // all ranks stretch all
     work_ += barostat->act(stretched_system(), context);
-    influences_.outdated();
+    influences_.particles_changed();
   }
 }
 

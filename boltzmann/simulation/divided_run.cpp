@@ -78,6 +78,7 @@ std::vector<Integrator::Carried> Simulation::held_inside_step(AnyEnsemble const&
 void Simulation::divide() {
   Team& here = team();
   if (here.alone() || here.depth() != 1 || !undivided().empty()) return;
+  here.meet(Team::Occasion::exchanges);  // somebody's look may have failed
   auto const fits = [this](auto const* ensemble) { return division_->owners(*ensemble).size() == ensemble->size(); };
   if (!division_ || &division_->team() != &here || !std::all_of(ensembles_.begin(), ensembles_.end(), fits)) {
     division_ = std::make_unique<Division>(here);

@@ -33,14 +33,20 @@ class Freshness {
 
   bool hold() const { return hold_; }
   /// Influences have been calculated, for particles as they are.
-  void calculated() { hold_ = true; }
+  void calculated() {
+    hold_ = true;
+    of_others_ = false;
+  }
   /// Particles have moved, or what else influences depend on has changed.
   void outdated() { hold_ = false; }
   /// Particles have been changed between two steps by something else than their motion.
   void particles_changed() {
     hold_ = false;
+    of_others_ = true;
     kept_.reset();
   }
+  /// Whether that has happened since they were calculated: what stands there may be of other particles.
+  bool of_others() const { return of_others_; }
 
   /// Whether some influences are of velocities inside the step.
   bool inside_step() const { return inside_step_; }
@@ -61,6 +67,7 @@ class Freshness {
   /// Influences have been restored, or not, where a run had been.
   void restored(bool with_influences, Dependence const& now) {
     hold_ = false;
+    of_others_ = !with_influences;
     kept_ = with_influences ? std::optional(now) : std::nullopt;
   }
   /// Whether influences belong to the state: they hold, and can't be had again.
@@ -69,7 +76,7 @@ class Freshness {
  private:
   bool are_kept_for(Dependence const& now) const { return kept_ == now && (inside_step_ || now.schemes); }
 
-  bool hold_ = false, running_ = false, inside_step_ = false;
+  bool hold_ = false, of_others_ = false, running_ = false, inside_step_ = false;
   std::optional<Dependence> kept_;  // what they are for
 };
 

@@ -438,6 +438,7 @@ void Simulation::begin() {
   equilibrate_now();  // also for no steps: what is stored of them is where another run goes on
   establish_flow();
   begun_ = true;
+  if (influences_.of_others() && observation_due()) calculate(time());
   observe_now();
 }
 
@@ -510,8 +511,10 @@ bool Simulation::take_step(int direction, FusedSteps* whole, bool last) {
   if (!changes_.empty()) adapt_now();
   if (!events_.empty()) happen_now();
   if (!observations_.empty()) {
-    if (whole && observation_due()) whole->store(time());
-    if (last && observation_due()) calculate(time());
+    if (whole && observation_due())
+      whole->store(time());
+    else if ((last || influences_.of_others()) && observation_due())
+      calculate(time());  // what the next step would begin with all the same
     observe_now();
   }
   for (auto const& one : progress_)
@@ -633,6 +636,7 @@ void Simulation::restore(std::int64_t step, double step_size, std::uint64_t seed
   work_ = state[5];
   seed_ = seed;
   minimisation_.reset();
+  equilibrations_.clear();
   begun_ = true;  // the start is behind it
   std::size_t at = 6;
   auto const next = [&] {
@@ -648,7 +652,12 @@ void Simulation::restore(std::int64_t step, double step_size, std::uint64_t seed
     std::copy_n(state.begin() + static_cast<std::ptrdiff_t>(at), 6, edges.begin());
     at += 6;
     for (auto* scheme : schemes_) {
-      scheme->box().edges(edges);
+      Box& box = scheme->box();
+      auto stretched = box.edges();
+      for (std::size_t a = 0; a < 3; ++a)  // walls are where the time says
+        if (static_cast<int>(a) < box.dimension() && box.periodic(static_cast<int>(a)))
+          stretched[a] = edges[a], stretched[3 + a] = edges[3 + a];
+      box.edges(stretched);
       scheme->box_changed();
     }
     for (auto const& barostat : barostats_) barostat->restore(next());

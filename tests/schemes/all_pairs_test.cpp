@@ -261,6 +261,26 @@ TYPED_TEST(AllPairs, VorticesInDoubleAndInSinglePrecision) {
   }
 }
 
+// Rows of images stand wherever memory is: of many numbers some are at odd places.
+TEST(AllPairsOfAScheme, InSinglePrecisionBesideAWallAreThoseInDouble) {
+  using V = Vortex<2>;
+  std::mt19937_64 random(test_seed(10));
+  std::uniform_real_distribution anywhere(0.0, 1.0);
+  for (std::size_t count = 26; count < 34; ++count) {
+    Box box(Vector{0., 0.}, Vector{1., 1.}, {Boundary::open, Boundary::mirror});
+    box.open_end(1, Box::End::high);
+    Ensemble<V> vortices("vortices", count);
+    for (auto& p : vortices) p.position = {anywhere(random), anywhere(random)}, p.vorticity = {1}, p.core = 0.1;
+    PairScheme in_double(box), in_single(box);
+    in_double.internal(vortices, BiotSavart{});
+    add_in_single_precision(in_single, vortices, vortices, BiotSavart{});
+    in_double.calculate();
+    std::vector<double> const wanted(vortices.influence(0), vortices.influence(0) + 2 * count);
+    in_single.calculate();
+    for (std::size_t k = 0; k < wanted.size(); ++k) EXPECT_NEAR(vortices.influence(0)[k], wanted[k], 1e-3);
+  }
+}
+
 TEST(AllPairsOfAScheme, HaveTheSameBitsForAnyNumberOfThreads) {
   Ensemble<Kepler<3>> stars("stars", 1500);
   scatter(stars, 8);

@@ -15,6 +15,7 @@
 #include <tests/message.hpp>
 #include <tests/same_rows.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -74,6 +75,24 @@ TEST(Adaptation, IsAChangeBetweenTwoRuns) {
       EXPECT_EQ(whole.atoms.size(), n * n + 4);
       expect_same_rows(whole.atoms, pieces.atoms, to_string(method) + " of " + std::to_string(n * n));
     }
+}
+
+TEST(Adaptation, WhoLooksSeesTheInfluencesOnThoseThatAreThere) {
+  Atoms run(20, 2.0, Boundary::periodic, Method::rk4);
+  run.simulation.adapt(3, [&] { run.change(); });
+  int looks = 0;
+  run.simulation.observe(3, [&](Simulation const& now) {
+    Atoms fresh(20, 2.0, Boundary::periodic, Method::rk4);
+    fresh.atoms.resize(run.atoms.size());
+    std::copy_n(run.atoms.row(0), run.atoms.size() * run.atoms.stride(), fresh.atoms.row(0));
+    fresh.scheme.calculate();
+    looks += now.step() > 0 ? 1 : 0;
+    for (std::size_t i = 0; i < run.atoms.size() && now.step() > 0; ++i)
+      for (std::size_t a = 0; a < 2; ++a)
+        ASSERT_NEAR(run.atoms.influence(i)[a], fresh.atoms.influence(i)[a], 1e-11) << "particle " << i;
+  });
+  run.simulation.run(9);
+  EXPECT_EQ(looks, 3);
 }
 
 TEST(Adaptation, ChargesOnAMeshMayComeAndGo) {

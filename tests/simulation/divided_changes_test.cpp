@@ -29,6 +29,7 @@ namespace boltzmann::divided_changes_test {
 namespace {
 
 using test::expect_same_bits;
+using test::expect_to_go_on;
 using test::Make;
 using test::melt;
 using test::scenario;
@@ -68,6 +69,19 @@ TEST(DividedEvents, ChangeVelocitiesLawsAndMethods) {
             true);
       },
       40, {2, 3, 5});
+}
+
+TEST(DividedEvents, OfMethodsThatABathBeforeTheRunCouldNotHave) {
+  expect_to_go_on([](World& world) {
+    melt<2>(world, 20, 0.5, Boundary::periodic);
+    auto& atoms = part_of<Ensemble<Newton<2>>>(world, 0);
+    Simulation& simulation = *world.simulation;
+    auto bath = std::make_shared<LangevinBath>(1.0, 1.0, 1.0);
+    bath->on(atoms);
+    simulation.equilibrate(bath, 2);
+    simulation.happen(
+        0.03, [&] { simulation.integrate(atoms, Method::rk2); }, true);
+  });
 }
 
 TEST(DividedEvents, OfScenarios) {
@@ -187,6 +201,122 @@ material = { kind = "ideal-gas", gamma = 1.4, specific_heat = 1 }
   expect_same_bits(scenario(text), 22, {2, 3, 5});
 }
 
+// Lists of forces that are calculated every other step are built for whoever looks in between.
+TEST(DividedLooks, LeaveForcesWithParticlesThatGetOtherOwners) {
+  ScenarioText const text{R"toml(
+[units]
+base = "reduced"
+[box]
+low = [0]
+high = [960]
+[run]
+step = 0.008
+steps = 25
+cutoff = 1.27
+skin = 0.05
+[[ensembles]]
+name = "driven"
+class = "Newton"
+number = 71
+load = { kind = "random", high = [630] }
+[[ensembles]]
+name = "others"
+class = "Newton"
+number = 143
+load = { kind = "random", minimum_distance = 0.64 }
+[[influences]]
+energy = "1.8*exp(-r/0.3)"
+every = 2
+between = ["others", "driven"]
+[[influences]]
+influence = "0.3*sin(5*time)*position"
+from_outside = true
+on = "driven"
+)toml",
+                          "slow.toml", "slow", ""};
+  expect_same_bits(scenario(text), 25, {2, 3});
+}
+
+// Influences of both hold from one step to the next, since some are of velocities inside of it.
+TEST(DividedRates, OfFieldsBesideThoseThatLeapFrogMoves) {
+  ScenarioText const text{R"toml(
+[units]
+base = "reduced"
+[box]
+low = [0, 0]
+high = [16, 16]
+boundary = "periodic"
+[run]
+step = 0.02
+steps = 40
+cutoff = 1.5
+[[classes]]
+name = "Bird"
+base = "Newton"
+fields = [{ name = "angle", period = "2 pi" }, { name = "turn", sum = true }]
+rate.angle = "0.1*turn + sin(9*time)"
+[[ensembles]]
+name = "walkers"
+class = "Bird"
+integrator = "euler"
+number = 150
+load = { kind = "random" }
+temperature = 1
+[[ensembles]]
+name = "flyers"
+class = "Bird"
+number = 150
+load = { kind = "random" }
+temperature = 1
+[[influences]]
+changes = "turn"
+influence = "sin(q.angle - p.angle + r)"
+among = ["walkers", "flyers"]
+)toml",
+                          "birds.toml", "birds", ""};
+  expect_to_go_on(scenario(text));
+}
+
+// Ranges that follow densities may have grown beyond what lists reach, when somebody looks behind a step whose influences
+// go on to hold.
+TEST(DividedLooks, LeaveListsOfRangesThatGrowAsTheyAre) {
+  ScenarioText const text{R"toml(
+[units]
+base = "reduced"
+[box]
+low = [0, 0]
+high = [16, 16]
+[run]
+step = { courant = 0.3 }
+steps = 60
+[smooth]
+variable_range = { spacings = 3 }
+[[ensembles]]
+name = "gas"
+class = "Smooth"
+density = 1
+range = 3
+specific_energy = 1.5
+load = { kind = "fill", spacing = 1.0, where = "x > 8" }
+material = { kind = "ideal-gas", gamma = 1.4 }
+)toml",
+                          "growing.toml", "growing", ""};
+  auto const rows = [&](bool looks) {
+    World world;
+    scenario(text)(world);
+    world.simulation->threads(1);
+    world.simulation->divide_from(0);
+    if (looks) world.simulation->observe(1, [](Simulation const&) {});
+    world.simulation->run(60);
+    auto const& gas = *world.simulation->ensembles().front();
+    return std::vector<double>(gas.row(0), gas.row(0) + gas.size() * gas.stride());
+  };
+  auto const wanted = rows(false);
+  EXPECT_EQ(rows(true), wanted);
+  for (auto const& failure : test::ThreadTeam(2).run([&](Team&) { EXPECT_EQ(rows(true), wanted); }))
+    EXPECT_EQ(test::line_of(failure), "");
+}
+
 TEST(DividedAdaptations, RemeshVortices) {
   expect_same_bits(scenario("lamb-oseen-exchange", {"ensembles.0.load.where=x^2 + y^2 < 1",
                                                     "ensembles.0.formulas.vorticity=0.0025*exp(-(x^2 + y^2)/0.1)"}),
@@ -207,6 +337,24 @@ void add_bath(World& world, AnyEnsemble& ensemble) {
   auto& bath = world.make<LangevinBath>(1.0, 1.0, 1.0);
   bath.on(ensemble);
   world.simulation->add(bath);
+}
+
+TEST(DividedBarostats, GoOnBesideAPiston) {
+  expect_to_go_on([](World& world) {
+    auto& atoms = world.make<Ensemble<Newton<2>>>("atoms");
+    Box box(Vector{0., 0.}, Vector{21., 20.7}, {Boundary::reflecting, Boundary::periodic});
+    box.wall(0, Box::End::low, {.velocity = {0.2}});
+    auto& scheme = world.make<PairScheme>(box, 2.5);
+    block_load(atoms, {Lattice::square, 1.15, {18, 18, 1}, {0.3, 0.3, 0}});
+    maxwellian_load(atoms, {.temperature = 1, .seed = test_seed(3)});
+    scheme.internal(atoms, LennardJones{1.0, 1.0});
+    world.simulation = &world.make<Simulation>(scheme, 0.004);
+    add_bath(world, atoms);
+    BarostatOptions options{.pressure = 0.5, .temperature = 1, .compressibility = 0.1, .rate = 5};
+    options.every = 4;
+    options.axes = {1};
+    world.simulation->add(Barostat(options, 1));
+  });
 }
 
 TEST(DividedBarostats, StretchAFluid) {

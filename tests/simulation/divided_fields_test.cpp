@@ -3,6 +3,7 @@
 #include "tests/simulation/divided_runs.hpp"
 
 #include <boltzmann/core/error.hpp>
+#include <boltzmann/laws/drag.hpp>
 #include <boltzmann/laws/laplace.hpp>
 #include <boltzmann/laws/magnetic.hpp>
 #include <boltzmann/laws/soft.hpp>
@@ -368,6 +369,11 @@ TEST(DividedMesh, GoesOnWithAnyNumberOfRanks) {
   expect_to_go_on([](World& world) { plasma<2>(world, {.precision = Precision::single}); });
   expect_to_go_on([](World& world) { plasma<3>(world, {.alike = false}); });
   expect_to_go_on([](World& world) { plasma<2>(world, {.alike = false, .cells = {130, 140}}); });  // solved together
+  // What velocities inside of the step have given can't be had again from its end.
+  expect_to_go_on([](World& world) {
+    auto& electrons = plasma<2>(world, {.alike = false});
+    static_cast<MeshScheme&>(*world.simulation->schemes().front()).external(electrons, Drag{2e-3});
+  });
 }
 
 TEST(DividedMesh, FailsWithTheLineOfOneRank) {

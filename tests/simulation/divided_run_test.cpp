@@ -143,18 +143,19 @@ TEST(DividedRun, AParticleThatMovesTooFarEndsAllWithTheLineOfOneRank) {
 }
 
 TEST(DividedRun, AnObserverThatFailsOnOneRankEndsAll) {
-  for (int const where : {0, 2}) {
-    auto const thrown = ThreadTeam(3).run([&](Team& team) {
-      World world;
-      melt<2>(world, 34, 1.0, Boundary::periodic);
-      world.simulation->observe(5, [&](Simulation const& simulation) {
-        if (simulation.step() == 10 && team.rank() == where) throw Error("a file can't be read");
-        simulation.measure();
+  for (int const step : {0, 10})
+    for (int const where : {0, 2}) {
+      auto const thrown = ThreadTeam(3).run([&](Team& team) {
+        World world;
+        melt<2>(world, 34, 1.0, Boundary::periodic);
+        world.simulation->observe(5, [&](Simulation const& simulation) {
+          if (simulation.step() == step && team.rank() == where) throw Error("a file can't be read");
+          simulation.measure();
+        });
+        world.simulation->run(30);
       });
-      world.simulation->run(30);
-    });
-    for (auto const& one : thrown) EXPECT_EQ(line_of(one), "a file can't be read");
-  }
+      for (auto const& one : thrown) EXPECT_EQ(line_of(one), "a file can't be read");
+    }
 }
 
 TEST(DividedRun, MeasuringOnOneRankAloneIsRefused) {

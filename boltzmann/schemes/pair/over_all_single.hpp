@@ -32,8 +32,10 @@ struct Origin {
 template <class P>
 [[gnu::always_inline]] inline void round_row(double const* row, Origin<P> const& origin, float* rounded) {
   typedef float Single __attribute__((vector_size(4 * sizeof(float)), aligned(4), may_alias));
+  typedef Quad Anywhere __attribute__((aligned(8)));  // rows of images beyond walls are not an ensemble's
   for (std::size_t k = 0; k < rounded_numbers<P>; k += row_block) {
-    Quad const numbers = *reinterpret_cast<Quad const*>(row + k) - *reinterpret_cast<Quad const*>(origin.number + k);
+    Quad const numbers =
+        *reinterpret_cast<Anywhere const*>(row + k) - *reinterpret_cast<Quad const*>(origin.number + k);
     *reinterpret_cast<Single*>(rounded + k) = __builtin_convertvector(numbers, Single);
   }
 }

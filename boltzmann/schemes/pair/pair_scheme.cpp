@@ -26,7 +26,7 @@ std::optional<std::uint64_t> PairScheme::revision() const {
 void PairScheme::calculate(double time) { calculate(time, true); }
 
 void PairScheme::complete(double) {
-  for (auto const& external : external_) external->source.take(false);
+  for (auto const& external : external_) external->bring_rates(threads());
   for (auto* ensemble : ensembles())
     for (std::size_t k = 0; k < ensemble->driven().size(); ++k) {
       auto const field = ensemble->driven()[k];
@@ -123,19 +123,12 @@ void PairScheme::calculate(double time, bool overwrite) {
                 connected->kernels.connected(connected->law.get(), task, begin, end);
               });
   }
-  auto const add_external = [&](External const& external) {
-    ExternalTask const task = external.task(time);
-    if (external.taken) return;
-    external.over_share(threads(), [&](std::size_t begin, std::size_t end) {
-      external.kernels.influence(external.law.get(), task, begin, end);
-    });
-  };
   for (auto const& external : external_)
-    if (!external->traits.rates) add_external(*external);
+    if (!external->traits.rates) external->add(time, threads());
   for (auto const& external : external_) {
     if (!external->traits.rates) continue;
     external->time = time;
-    if (!external->source.leave()) add_external(*external);
+    if (!external->source.leave()) external->add(time, threads());
   }
 }
 

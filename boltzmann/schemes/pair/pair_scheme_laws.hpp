@@ -188,6 +188,19 @@ struct PairScheme::External {
     External const& of_;
   } source{*this};
 
+  /// Adds its influence at this time to those that are there.
+  void add(double time, int threads) const {
+    ExternalTask const now = task(time);
+    if (taken) return;
+    over_share(threads, [&](std::size_t begin, std::size_t end) { kernels.influence(law.get(), now, begin, end); });
+  }
+  /// Rates that the last calculation has left to an integrator stand in the ensemble, and belong to its influences.
+  void bring_rates(int threads) {
+    if (source.left()) add(time, threads);
+    source.take(false);
+    source.leave();
+  }
+
   std::size_t count() const { return everyone ? ensemble->size() : only.size(); }
   /// Calls function(begin, end) for all on whom it acts, of this rank; of chosen ones, by their place among these, for all.
   template <class Function>

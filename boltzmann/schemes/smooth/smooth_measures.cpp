@@ -73,7 +73,7 @@ EnergyAndVirial SmoothScheme::measure(double time) {
   if (all_is_pressure)
     complete(time);
   else
-    find(Until::fluxes);
+    find(Until::fluxes, true);
   if (division_) gather_particles();
   auto measures = EnergyAndVirial::known();
   auto const& all = ensembles();

@@ -262,8 +262,24 @@ void SmoothScheme::check_heating() const {
         follows->ensemble->name(), keeps->ensemble->name()));
 }
 
-/// Lists that reach as far as the longest range.
-void SmoothScheme::prepare() {
+/// Whether nobody has moved since places were taken.
+bool SmoothScheme::all_rest() const {
+  bool rest = hood_ && points_->size() == count();
+  std::size_t first = 0;
+  for (auto const& loaded : loaded_) {
+    AnyEnsemble const& ensemble = *loaded->ensemble;
+    if (rest)
+      for_share(ensemble, particle_grain, 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end && rest; ++i)
+          rest = std::equal(ensemble.row(i), ensemble.row(i) + box().dimension(), points_->row(first + i));
+      });
+    first += ensemble.size();
+  }
+  return division_ ? division_->team().meet(Team::Occasion::exchanges, {rest ? 0 : 1}).most[0] == 0 : rest;
+}
+
+/// Lists that reach as far as the longest range, unless they are to stay what they are.
+void SmoothScheme::prepare(bool keep_lists) {
   int const dimension = box().dimension();
   bool const vary = variable_.has_value();
   if (vary && density_from_ != DensityFrom::summation)
@@ -278,7 +294,7 @@ void SmoothScheme::prepare() {
     hood_->add(*points_, *points_, vary ? room_to_grow * longest_ : longest_);
     hood_->skin(skin_ >= 0 ? skin_ : skin_of_range * hood_->cutoff(0));
     hood_->divide(division_, threads());
-  } else {
+  } else if (!keep_lists) {
     double const cutoff = hood_->cutoff(0);
     if (vary ? longest_ > cutoff || longest_ < 0.8 * cutoff : longest_ != cutoff)
       reach(vary ? room_to_grow * longest_ : longest_);
@@ -323,8 +339,9 @@ void SmoothScheme::run_pass(PairKernel kernel, std::size_t components, std::vect
   task.same = true;
   task.target_block_stride = task.source_block_stride = copy.block_stride();
   task.row = list.rows();
-  task.length = list.lengths(hood_->ring());
-  task.cutoff2 = hood_->cutoff(0) * hood_->cutoff(0);
+  // Whoever looks may find ranges that have grown beyond the cut-off: they are read in all that lists have.
+  task.length = list.lengths(longest_ > hood_->cutoff(0) ? list_rings - 1 : hood_->ring());
+  task.cutoff2 = square(std::max(longest_, hood_->cutoff(0)));
   task.influence = sums.data();
   hood_->over_own(copy, pair_grain, threads_for(task.targets, 8, threads()),
                   [&](std::size_t begin, std::size_t end) { kernel(&parameters_, task, begin, end); });
@@ -416,10 +433,13 @@ void SmoothScheme::set_tasks(Recipe const& recipe, SortedCopy& copy) {
   parameters_.push = loaded_.front()->kernels.push;
 }
 
-void SmoothScheme::find_places() {
+/// Where somebody looks behind a step, influences of lists as they are go on to hold: until somebody moves these stay,
+/// also if ranges have grown since (in a run that is divided others would give particles owners without influences).
+void SmoothScheme::find_places(bool looking) {
+  bool const keep_lists = looking && variable_ && all_rest();
   take_places();
   if (points_->size() == 0) return;
-  prepare();
+  prepare(keep_lists);
   hood_->refresh(threads());
 }
 
@@ -428,8 +448,8 @@ void SmoothScheme::bring_particles() {
   brought_ = true;
 }
 
-void SmoothScheme::find(Until until) {
-  if (!std::exchange(brought_, false)) find_places();
+void SmoothScheme::find(Until until, bool looking) {
+  if (!std::exchange(brought_, false)) find_places(looking);
   if (points_->size() == 0) return;
   find_members();
   SortedCopy& copy = hood_->copy(*points_);
@@ -482,7 +502,7 @@ void SmoothScheme::add_influences(double time) {
   }
 }
 
-void SmoothScheme::complete(double) { find(Until::state); }
+void SmoothScheme::complete(double) { find(Until::state, true); }
 
 void SmoothScheme::divide(Division* division) {
   if (division) {

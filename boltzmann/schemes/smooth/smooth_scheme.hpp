@@ -141,16 +141,17 @@ class SmoothScheme final : public Scheme {
   };
   Recipe recipe() const;
   void set_tasks(Recipe const& recipe, SortedCopy& copy);
-  void find_places();
-  void find(Until until);
+  void find_places(bool looking = false);
+  void find(Until until, bool looking = false);
   Tensor<3> stress();
   /// Of each particle: its grad-h factor, and two ranges that are too short and too long.
   struct RangeBracket {
     std::vector<double> factor, shorter, longer;
   };
   double new_ranges(RangeBracket& bracket);
-  void prepare();
+  void prepare(bool keep_lists = false);
   void reach(double cutoff);
+  bool all_rest() const;
   struct Extent;
   Extent take_places(Loaded const& loaded);
   void take_places();

@@ -63,7 +63,7 @@ void SmoothScheme::variable_range(VariableRange const& variable) {
   RangeBracket bracket{std::vector<double>(count()), std::vector<double>(count(), variable_->shortest),
                        std::vector<double>(count(), variable_->longest)};
   for (int iteration = 0;; ++iteration) {
-    complete(0);
+    find(Until::state);
     for (std::size_t k = 0; k < factors_.size(); ++k) bracket.factor[hood_->target(0).order()[k]] = factors_[k];
     double const largest_change = new_ranges(bracket);
     if (largest_change < precision) break;
