@@ -527,6 +527,8 @@ void Simulation::complete_last_step(FusedSteps* whole, bool last) {
   if (whole) {
     whole->store(time());
     influences_.outdated();
+  } else if (influences_.of_others()) {
+    calculate(time());
   }
   bool const divided = is_divided();
   if (divided) {

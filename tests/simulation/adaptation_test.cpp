@@ -81,17 +81,20 @@ TEST(Adaptation, WhoLooksSeesTheInfluencesOnThoseThatAreThere) {
   Atoms run(20, 2.0, Boundary::periodic, Method::rk4);
   run.simulation.adapt(3, [&] { run.change(); });
   int looks = 0;
-  run.simulation.observe(3, [&](Simulation const& now) {
+  auto const look = [&] {
+    ++looks;
     Atoms fresh(20, 2.0, Boundary::periodic, Method::rk4);
     fresh.atoms.resize(run.atoms.size());
     std::copy_n(run.atoms.row(0), run.atoms.size() * run.atoms.stride(), fresh.atoms.row(0));
     fresh.scheme.calculate();
-    looks += now.step() > 0 ? 1 : 0;
-    for (std::size_t i = 0; i < run.atoms.size() && now.step() > 0; ++i)
+    for (std::size_t i = 0; i < run.atoms.size(); ++i)
       for (std::size_t a = 0; a < 2; ++a)
         ASSERT_NEAR(run.atoms.influence(i)[a], fresh.atoms.influence(i)[a], 1e-11) << "particle " << i;
-  });
+  };
+  run.simulation.observe_when([](std::int64_t step) { return step == 3 || step == 6; },
+                              [&](Simulation const&) { look(); });
   run.simulation.run(9);
+  look();
   EXPECT_EQ(looks, 3);
 }
 
