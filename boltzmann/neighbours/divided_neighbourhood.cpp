@@ -51,7 +51,7 @@ void Neighbourhood::divide(Division* division, int threads) {
     if (!old && !complete_ && division->id() != last_division_) complete(threads);
     division_ = division;
     last_division_ = division->id();
-    division_->gathers(this, [this] { gather_references(); });
+    division_->gathers(this, [this] { gather_others(); });
     if (lists_.empty()) return;
     std::vector<AnyEnsemble const*> ensembles;
     for (auto const& copy : copies_) ensembles.push_back(&copy.ensemble());
@@ -73,7 +73,7 @@ void Neighbourhood::divide(Division* division, int threads) {
     if (!references_known_) stale_ = true;
     return;
   }
-  bool const current = std::all_of(copies_.begin(), copies_.end(), [](auto const& copy) { return copy.is_current(); });
+  bool const current = is_current();
   for (auto& copy : copies_) copy.everything();
   if (current && !stale_) follow(threads);  // what is not this rank's has not been
 }
@@ -213,8 +213,10 @@ void Neighbourhood::share_out() {
   take_shares();
 }
 
-/// Those of a build in parts come to all ranks, with all rows.
-void Neighbourhood::gather_references() {
+/// What is known of others where all rows come to all ranks: whether they have moved, and references of a build in parts.
+void Neighbourhood::gather_others() {
+  if (lists_.empty()) return;
+  others_rest_ = sum(is_current() ? 0 : 1) == 0;
   if (!is_part() || references_known_) return;
   auto const D = static_cast<std::size_t>(box_->dimension());
   for (auto& copy : copies_) division_->gather(copy.ensemble(), copy.references_by_number().data(), D, D);

@@ -241,10 +241,22 @@ bool Neighbourhood::lists_hold(double largest2) {
   return some > few && move_beyond(soon * soon, some);
 }
 
+/// Whether what this rank advances is where it was at the last refresh.
+bool Neighbourhood::is_current() const {
+  return std::all_of(copies_.begin(), copies_.end(), [](auto const& copy) { return copy.is_current(); });
+}
+
 void Neighbourhood::refresh(int threads) {
   if (lists_.empty()) return;
   find_resized();
-  if (divided()) return refresh_together(threads);
+  if (divided())
+    refresh_together(threads);
+  else
+    refresh_alone(threads);
+  others_rest_ = true;
+}
+
+void Neighbourhood::refresh_alone(int threads) {
   if (is_part() && !stale_) become_whole(threads);
   if (!stale_ && (!follow(threads) || lists_hold(largest_displacement2()))) return complete(threads);
   build(threads);
@@ -269,11 +281,9 @@ bool Neighbourhood::follow(int threads, bool others) {
 // anew, the skin if it is chosen; then of each sorted copy the edges of the box, the slide of a sheared one, and the
 // references at its build, and the particles that were moved since: number and reference of each.
 std::vector<double> Neighbourhood::state() const {
-  bool decided = true, stale = stale_;  // numbers of particles may have changed since
-  for (auto const& copy : copies_) {
-    decided = decided && copy.is_current();
-    stale = stale || copy.owned() != copy.ensemble().size();
-  }
+  bool stale = stale_;  // numbers of particles may have changed since
+  for (auto const& copy : copies_) stale = stale || copy.owned() != copy.ensemble().size();
+  bool const decided = others_rest_ && is_current();
   std::vector<double> state{stale ? 1.0 : 0.0, decided ? 1.0 : 0.0, static_cast<double>(ring_), found_again_,
                             skin_.value_or(-1)};
   for (auto const& copy : copies_) {
@@ -303,6 +313,7 @@ void Neighbourhood::restore(std::span<double const> state, int threads) {
   };
   auto const head = next(5);
   stale_ = head[0] != 0;
+  others_rest_ = true;
   if (head[4] >= 0) skin_ = head[4];
   if (stale_ || lists_.empty()) return;
   double const reach = longest_cutoff() + skin();

@@ -182,7 +182,9 @@ class Neighbourhood {
   void tell_moved(std::vector<Moved>& moved);
   /// How far beyond what its lists need a rank knows particles.
   double margin() const { return skin(); }
-  void gather_references();
+  bool is_current() const;
+  void gather_others();
+  void refresh_alone(int threads);
 
   double rows_around_one() const;
   double longest_cutoff() const;
@@ -204,6 +206,7 @@ class Neighbourhood {
   RowExchange exchange_;
   bool complete_ = true;          // every row has its lists
   bool references_known_ = true;  // of all particles, where sorted copies are parts
+  bool others_rest_ = true;       // nothing that others advance has moved since the last refresh, as far as is known
   std::deque<SortedCopy> copies_;
   std::deque<std::vector<Stretch>> own_;            // rows of each copy, of which there are lists
   std::vector<std::vector<char>> marks_;            // of rows of each copy: they may be in lists; none: not known

@@ -62,6 +62,21 @@ TEST(DividedRun, OfAFewThatAreAheadOfAllOthers) {
   EXPECT_GT(static_cast<PairScheme*>(world.parts[1].get())->neighbourhood().moves(), 10U);
 }
 
+// What only others' particles have done since lists were last read is in the state all the same: rk4 moves them once more.
+TEST(DividedRun, WhereParticlesOfOneRankRest) {
+  auto const at_rest_but_for_one = [](World& world) {
+    melt<2>(world, 60, 0.0, Boundary::periodic);
+    auto& atoms = *dynamic_cast<Ensemble<Newton<2>>*>(world.simulation->ensembles()[0]);
+    for (auto& atom : atoms) atom.velocity = {0.0, 0.0};
+    double const middle = 0.75 * world.simulation->schemes().front()->box().high(1);
+    auto const first =
+        std::find_if(atoms.begin(), atoms.end(), [&](auto const& atom) { return atom.position[1] > middle; });
+    first->velocity = {3.0, 1.0};
+    world.simulation->integrate(atoms, Method::rk4);
+  };
+  expect_same_bits(at_rest_but_for_one, 2, {2});
+}
+
 void two_species(World& world, Boundary boundary) {
   melt<3>(world, 6, 3.0, boundary);
   auto& scheme = *static_cast<PairScheme*>(world.parts[1].get());
