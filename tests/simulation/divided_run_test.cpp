@@ -66,9 +66,10 @@ TEST(DividedRun, OfAFewThatAreAheadOfAllOthers) {
 TEST(DividedRun, WhereParticlesOfOneRankRest) {
   auto const at_rest_but_for_one = [](World& world) {
     melt<2>(world, 60, 0.0, Boundary::periodic);
-    auto& atoms = *dynamic_cast<Ensemble<Newton<2>>*>(world.simulation->ensembles()[0]);
+    auto& scheme = *static_cast<PairScheme*>(world.parts[1].get());
+    auto& atoms = *dynamic_cast<Ensemble<Newton<2>>*>(scheme.ensembles()[0]);
     for (auto& atom : atoms) atom.velocity = {0.0, 0.0};
-    double const middle = 0.75 * world.simulation->schemes().front()->box().high(1);
+    double const middle = 0.75 * scheme.box().high(1);
     auto const first =
         std::find_if(atoms.begin(), atoms.end(), [&](auto const& atom) { return atom.position[1] > middle; });
     first->velocity = {3.0, 1.0};
