@@ -259,6 +259,36 @@ struct Neighbourhood::Sorting {
         if (std::uint32_t const row = (*row_of)[own[k]]; row < one.list.size()) work[unit[k]] += length[row];
     }
   }
+  /// References of these particles, ascending, and their cells: of those that were this rank's before they are known.
+  std::vector<std::uint32_t> find(std::vector<std::uint32_t> const& numbers, std::unique_ptr<double[]>& all,
+                                  int threads) const {
+    std::vector<std::uint32_t> come(numbers.size()), place_of_come(numbers.size()), cells(numbers.size());
+    all = std::make_unique_for_overwrite<double[]>(static_cast<std::size_t>(dimension) * numbers.size());
+    in_dimension(dimension, [&](auto D) {
+      auto const take = [to = all.get(), D](std::size_t n, double const* from) {
+        for (int a = 0; a < D; ++a) to[D * n + a] = from[a];
+      };
+      std::size_t count = 0;
+      for (std::size_t n = 0, k = 0; n < numbers.size(); ++n) {
+        while (k < own.size() && own[k] < numbers[n]) ++k;
+        if (k < own.size() && own[k] == numbers[n]) {
+          cells[n] = cell[k];
+          take(n, references.get() + D * k);
+        } else {
+          come[count] = numbers[n];
+          place_of_come[count++] = static_cast<std::uint32_t>(n);
+        }
+      }
+      come.resize(count);
+      auto const of_come = copy->references_of(come);
+      auto const cells_of_come = cells_of(grid, of_come.get(), D, come.size(), threads);
+      for (std::size_t m = 0; m < come.size(); ++m) {
+        cells[place_of_come[m]] = cells_of_come[m];
+        take(place_of_come[m], of_come.get() + D * m);
+      }
+    });
+    return cells;
+  }
   /// Rows of consecutive units that have one owner.
   void run_by_units(std::vector<std::uint16_t> const& owner) {
     for (std::size_t u = 0; u < owner.size(); ++u)
@@ -416,32 +446,7 @@ void Neighbourhood::build_part(Sorting const& one, std::vector<std::uint32_t> nu
                                int threads) {
   auto const rank = static_cast<std::size_t>(division_->team().rank());
   SortedCopy::Part part;
-  // What is known of those that were this rank's before is not found again.
-  std::vector<std::uint32_t> come(numbers.size()), place_of_come(numbers.size()), cell(numbers.size());
-  part.references = std::make_unique_for_overwrite<double[]>(static_cast<std::size_t>(one.dimension) * numbers.size());
-  in_dimension(one.dimension, [&](auto D) {
-    auto const take = [to = part.references.get(), D](std::size_t n, double const* from) {
-      for (int a = 0; a < D; ++a) to[D * n + a] = from[a];
-    };
-    std::size_t count = 0;
-    for (std::size_t n = 0, k = 0; n < numbers.size(); ++n) {
-      while (k < one.own.size() && one.own[k] < numbers[n]) ++k;
-      if (k < one.own.size() && one.own[k] == numbers[n]) {
-        cell[n] = one.cell[k];
-        take(n, one.references.get() + D * k);
-      } else {
-        come[count] = numbers[n];
-        place_of_come[count++] = static_cast<std::uint32_t>(n);
-      }
-    }
-    come.resize(count);
-    auto const references = one.copy->references_of(come);
-    auto const cells = cells_of(one.grid, references.get(), D, come.size(), threads);
-    for (std::size_t m = 0; m < come.size(); ++m) {
-      cell[place_of_come[m]] = cells[m];
-      take(place_of_come[m], references.get() + D * m);
-    }
-  });
+  auto const cell = one.find(numbers, part.references, threads);
   part.sorted = Cells(one.grid, cell, one.copy->sorting_reach(reach, box_->edges()));
   part.grid = one.cells;
   part.rows.resize(numbers.size());

@@ -627,6 +627,21 @@ std::vector<double> Simulation::state() const {
   return state;
 }
 
+namespace {
+
+/// Periodic ends are where they were, at these edges; walls are where the time says.
+void stretch_to(std::span<double const> edges, Scheme& scheme) {
+  Box& box = scheme.box();
+  auto now = box.edges();
+  for (int a = 0; a < box.dimension(); ++a)
+    if (box.periodic(a))
+      for (int const end : {a, 3 + a}) now[end] = edges[end];
+  box.edges(now);
+  scheme.box_changed();
+}
+
+}  // namespace
+
 void Simulation::restore(std::int64_t step, double step_size, std::uint64_t seed, std::span<double const> state) {
   auto const misfit = [] { return Error("the checkpoint does not fit this simulation: its state has another length"); };
   if (state.size() < 6) throw misfit();
@@ -650,18 +665,8 @@ void Simulation::restore(std::int64_t step, double step_size, std::uint64_t seed
   };
   if (!barostats_.empty()) {  // before particles are put into the box
     if (state.size() < at + 6) throw misfit();
-    Box::Edges edges;
-    std::copy_n(state.begin() + static_cast<std::ptrdiff_t>(at), 6, edges.begin());
+    for (auto* scheme : schemes_) stretch_to(state.subspan(at, 6), *scheme);
     at += 6;
-    for (auto* scheme : schemes_) {
-      Box& box = scheme->box();
-      auto stretched = box.edges();
-      for (std::size_t a = 0; a < 3; ++a)  // walls are where the time says
-        if (static_cast<int>(a) < box.dimension() && box.periodic(static_cast<int>(a)))
-          stretched[a] = edges[a], stretched[3 + a] = edges[3 + a];
-      box.edges(stretched);
-      scheme->box_changed();
-    }
     for (auto const& barostat : barostats_) barostat->restore(next());
   }
   for (auto const& event : events_)
