@@ -108,7 +108,7 @@ inline Images::Range Images::turns_near_end(int axis, double reach, double x) co
     return there >= least && there <= greatest;
   };
   Range range;
-  if (box_->periodic(axis) && length > 2.1 * reach) {  // one image at most
+  if (box_->periodic(axis) && length > 2.1 * reach) {  // one image at most, whatever is rounded
     if (x - length >= least) return {-1, 0};
     if (x + length <= greatest) return {0, 1};
   } else if (box_->periodic(axis)) {

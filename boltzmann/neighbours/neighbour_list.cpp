@@ -51,10 +51,10 @@ void find(NearKernel kernel, NearTask const& task, std::size_t begin, std::size_
     begin = kernel(task, begin, end, out);
     if (begin == end) return;
     if (out.used + out.wanted > index.size()) {
-      // For the rest as for those that have been found, and no more.
+      // For the rest as for those that have been found, what is wanted for the last of them, and no more.
       std::size_t const found = begin - out.first, rest = end - begin;
       std::size_t const more = found > 0 ? out.used * rest / found + out.used / 32 : 0;
-      index.reserve(out.used + std::max(out.wanted, more) + out.wanted);
+      index.reserve(out.used + more + out.wanted);
       index.resize(index.capacity());
     }
     if (out.wanted_scratch > out.scratch) scratch.lend(out, out.wanted_scratch + out.wanted_scratch / 2);

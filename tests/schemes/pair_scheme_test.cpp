@@ -283,8 +283,9 @@ TEST(PairScheme, EnergyAndVirialOfAPair) {
   }
 }
 
-// LAMMPS' melt start: 32,000 atoms, fcc, rho* 0.8442, cut-off 2.5: PE/N = -6.7733680532 (an independent code's figure).
-TEST(PairScheme, EnergyOfTheMeltStart) {
+// LAMMPS' melt start: fcc, rho* 0.8442, cut-off 2.5: of 32,000 atoms PE/N = -6.7733680532, of 4,000 at a temperature of 3,
+// of which one does not count for the momentum, the pressure -3.7033504 (an independent code's figures).
+TEST(PairScheme, EnergyAndPressureOfTheMeltStart) {
   int const cells = 20;
   double const a = std::cbrt(4 / 0.8442);
   Ensemble<Newton<3>> atoms("atoms");
@@ -299,7 +300,10 @@ TEST(PairScheme, EnergyOfTheMeltStart) {
   PairScheme scheme(box, 2.5);
   scheme.internal(atoms, LennardJones{1.0, std::pow(2, 1. / 6)});
   scheme.shifted(false);
-  EXPECT_NEAR(scheme.measure().potential / n, -6.7733680532, 2e-10);
+  auto const measures = scheme.measure();
+  EXPECT_NEAR(measures.potential / n, -6.7733680532, 2e-10);
+  double const virial = measures.virial[0][0] + measures.virial[1][1] + measures.virial[2][2];
+  EXPECT_NEAR(virial / (3 * cube(a * cells)) + 0.8442 * 3 * (1 - 1. / 4000), -3.7033504, 1e-6);
 }
 
 TEST(PairScheme, SameBitsForAnyThreadCount) {
