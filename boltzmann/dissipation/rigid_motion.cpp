@@ -30,6 +30,7 @@ class RigidLeapFrog final : public Integrator {
     if (division) bonds_->keep_together(*division);
   }
   bool has_groups() const override { return true; }
+  bool predicts_velocities() const override { return inner_->predicts_velocities(); }
   bool takes_rotations() const override { return inner_->takes_rotations(); }
   void rotate(std::vector<Rotation> rotations) override { inner_->rotate(std::move(rotations)); }
 

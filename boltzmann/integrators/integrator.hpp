@@ -20,12 +20,11 @@ namespace boltzmann {
 class AnyEnsemble;
 class Division;
 
-/// How an ensemble is advanced. The orders hold where all ensembles that influence each other have the same method, and
-/// for the leap-frogs where influences depend on positions (and time) only; otherwise the result is first order in the
-/// step.
+/// How an ensemble is advanced. The orders hold where all ensembles that influence each other have the same method;
+/// otherwise the result is first order in the step.
 enum class Method {
   euler,
-  leap_frog,  ///< kick, drift, kick (velocity Verlet)
+  leap_frog,  ///< kick, drift, kick (velocity Verlet); the second kick is solved for the velocity if forces depend on it
   rk2,
   rk4,
   reversible_leap_frog,
@@ -136,6 +135,11 @@ class Integrator {
   /// Puts the state on a grid (reversible leap-frog only).
   virtual void prepare(FixedPoint const&) {}
 
+  /// True if the particle class says that its influences depend on velocities: the integrator predicts these.
+  virtual bool predicts_velocities() const { return false; }
+  /// Between the stages of leap-frog: the velocities of the half step, dimension() numbers a particle, if rows hold
+  /// predicted ones instead; else null.
+  virtual double* half_step_velocities() { return nullptr; }
   /// Whether velocities are turned by rotate() instead of by a force.
   virtual bool takes_rotations() const { return false; }
   /// The rotations of all steps to come, in place of those before.

@@ -63,6 +63,54 @@ template <class F, int D>
 template <class P, class Member>
 inline constexpr bool is_position = std::is_same_v<Member, decltype(&P::position)>;
 
+/// True if P has equations of motion of its own, on a vector as influence.
+template <class P>
+inline constexpr bool has_own_kicks =
+    !std::is_same_v<P, Newton<P::dimension>> && std::is_same_v<typename P::Influence, Vector<P::dimension>>;
+
+/// True if a rate of P, other than that of the position, depends on a field that has such a rate (a friction or a Coriolis
+/// force in the equations of the class). It is tried with numbers.
+template <class P>
+bool kicks_read_what_they_change() {
+  static_assert(sizeof(P) % sizeof(double) == 0);
+  constexpr std::size_t numbers = sizeof(P) / sizeof(double);
+  auto const rates = [](P const& p, std::vector<double>& all) {
+    typename P::Influence influence;
+    each_component([](double& x) { x = 0.75; }, influence);
+    P::equations(p, influence, [&](auto member, auto const& derivative) {
+      if constexpr (!is_position<P, decltype(member)>)
+        each_component([&](double const& rate) { all.push_back(rate); }, derivative);
+    });
+  };
+  for (std::uint64_t trial = 0; trial < 16; ++trial) {
+    Stream stream(0, trial, 0, Purpose::velocity);
+    P p;
+    for (std::size_t k = 0; k < numbers; ++k) reinterpret_cast<double*>(&p)[k] = 0.5 + stream.uniform();
+    std::vector<double> before, after;
+    rates(p, before);
+    P changed = p;
+    P::equations(p, typename P::Influence{}, [&](auto member, auto const&) {
+      if constexpr (!is_position<P, decltype(member)>)
+        each_component([&](double& x) { x += stream.uniform(); }, changed.*member);
+    });
+    rates(changed, after);
+    for (std::size_t k = 0; k < before.size(); ++k)
+      if (std::isfinite(before[k]) && before[k] != after[k]) return true;
+  }
+  return false;
+}
+
+/// The same for classes of which it is not known.
+template <class P>
+bool kicks_are_solved() {
+  if constexpr (has_own_kicks<P>) {
+    static bool const reads = kicks_read_what_they_change<P>();
+    return reads;
+  } else {
+    return false;
+  }
+}
+
 /// x rounded to a multiple of the quantum (a power of two), half to even: the same for x and -x.
 [[gnu::always_inline]] inline double on_grid(double x, double quantum) {
   double const rounding = 1.5 * 4503599627370496.0 * quantum;
@@ -366,11 +414,13 @@ class GaussRadauMethod final : public MethodOf<P>, public EquationsOfMotion {
 
 /// With rotations (magnetic fields): turn, kick, drift; kick, turn. That is Boris' push, seen from the whole steps.
 /// Where influences depend on what is kicked (P::velocity_dependent), the drift's end is predicted: the second kick
-/// takes the prediction back and adds its own. That keeps the second order.
+/// takes the prediction back and adds its own. That keeps the second order. Where the equations of the class themselves
+/// depend on it, the second kick is solved for the fields at its end (see VelocityForces).
 template <class P>
 class LeapFrog final : public Alternating<P> {
  public:
   using Alternating<P>::Alternating;
+  bool predicts_velocities() const override { return predicts; }
   bool takes_rotations() const override { return true; }
   void rotate(std::vector<Rotation> rotations) override { rotations_ = std::move(rotations); }
   /// Rotations turn all before others are moved.
@@ -395,6 +445,8 @@ class LeapFrog final : public Alternating<P> {
       });
       return Motion::final;
     }
+    if constexpr (has_own_kicks<P>)
+      if (kicks_are_solved<P>()) return kick_to_solution(dt), end_of_step(dt);
     this->each_again([this, dt, plain, kicked](std::size_t i, LargestMove& move) {
       if constexpr (predicts) {
         double const* predicted = kicks_.data() + kicked * i;
@@ -404,9 +456,7 @@ class LeapFrog final : public Alternating<P> {
       }
       move.take(norm2(this->ensemble_[i].velocity), i);
     });
-    // In the opposite order, so that the step looks the same backwards. A velocity that is finite stays so.
-    for (auto rotation = rotations_.rbegin(); rotation != rotations_.rend(); ++rotation) turn(*rotation, 0.5 * dt);
-    return Motion::none;
+    return end_of_step(dt);
   }
   std::vector<Integrator::Carried> carried() override {
     if (kicks_.empty() || kicks_.size() != kicked() * this->ensemble_.size()) return {};
@@ -415,6 +465,44 @@ class LeapFrog final : public Alternating<P> {
 
  private:
   static constexpr bool predicts = depends_on_velocity<P>;
+  Motion end_of_step(double dt) {
+    // In the opposite order, so that the step looks the same backwards. A velocity that is finite stays so.
+    for (auto rotation = rotations_.rbegin(); rotation != rotations_.rend(); ++rotation) turn(*rotation, 0.5 * dt);
+    return Motion::none;
+  }
+  /// x = x_half + (dt/2) rate(x) for all fields that are kicked, by iteration; particles for which that does not end
+  /// count as not finite.
+  void kick_to_solution(double dt) {
+    constexpr int most_turns = 200;
+    std::size_t const kicked = this->kicked();
+    this->each_again([this, dt, kicked](std::size_t i, LargestMove& move) {
+      P& p = this->ensemble_[i];
+      if constexpr (predicts) {
+        double const* predicted = kicks_.data() + kicked * i;
+        this->equations(i, [&](auto member, auto const&) {
+          if constexpr (!is_position<P, decltype(member)>)
+            each_component([&](double& x) { x -= *predicted++; }, p.*member);
+        });
+      }
+      P half = p;
+      double change = 1, before = 2;
+      for (int turn = 0; turn < most_turns && change > 0; ++turn) {
+        before = std::exchange(change, 0);
+        this->equations(i, [&](auto member, auto const& derivative) {
+          if constexpr (!is_position<P, decltype(member)>)
+            each_component(
+                [&](double& x, double const& from, double rate) {
+                  double const next = from + 0.5 * dt * rate;
+                  change = std::max(change, std::abs(next - x) / (std::abs(next) + std::abs(from) + 1e-300));
+                  x = next;
+                },
+                p.*member, half.*member, derivative);
+        });
+        if (turn > 2 && change >= before && change < 1e-12) break;  // rounding
+      }
+      move.take(change < 1e-12 ? norm2(p.velocity) : std::numeric_limits<double>::infinity(), i);
+    });
+  }
   /// How many numbers of a particle are kicked.
   static std::size_t kicked() {
     std::size_t count = 0;
@@ -619,11 +707,12 @@ std::unique_ptr<Integrator> method_of(AnyEnsemble& ensemble, Method method) {
       if constexpr (has_velocity<P>) return std::make_unique<LeapFrog<P>>(ensemble, method);
       break;
     case Method::reversible_leap_frog:
-      if constexpr (has_velocity<P>) return std::make_unique<ReversibleLeapFrog<P>>(ensemble, method);
+      if constexpr (has_velocity<P>)
+        if (!kicks_are_solved<P>()) return std::make_unique<ReversibleLeapFrog<P>>(ensemble, method);
       break;
     case Method::symplectic_4:
       if constexpr (has_velocity<P> && !depends_on_velocity<P>)
-        return std::make_unique<Symplectic4<P>>(ensemble, method);
+        if (!kicks_are_solved<P>()) return std::make_unique<Symplectic4<P>>(ensemble, method);
       break;
     case Method::gauss_radau:
       if constexpr (!walks_at_random<P>) return std::make_unique<GaussRadauMethod<P>>(ensemble, method);

@@ -29,6 +29,8 @@ class Frozen final : public Integrator {
   std::string undivided() const override { return inner_->undivided(); }
   void divide(Division* division) override { inner_->divide(division); }
   bool has_groups() const override { return inner_->has_groups(); }
+  bool predicts_velocities() const override { return inner_->predicts_velocities(); }
+  double* half_step_velocities() override { return inner_->half_step_velocities(); }
   bool takes_rotations() const override { return inner_->takes_rotations(); }
   void rotate(std::vector<Rotation> rotations) override { inner_->rotate(std::move(rotations)); }
 

@@ -55,6 +55,7 @@ struct EnergyAndVirial {
 };
 
 struct VortexSource;
+class VelocityInfluences;
 
 class Scheme {
  public:
@@ -129,6 +130,9 @@ class Scheme {
 
   /// Whether influences on this ensemble are known to depend on velocities.
   virtual bool velocity_dependent(AnyEnsemble const& /*ensemble*/) const { return false; }
+  /// Access to the influences that depend on velocities alone. Null: the scheme can't tell them from others; leap-frog
+  /// then calculates all of its influences several times in a step if velocity_dependent().
+  virtual VelocityInfluences* velocity_influences() { return nullptr; }
   /// Whether influences are the same, but for rounding, if all particles are shifted by one vector, and calculating
   /// them there costs no more: an integrator may then put the origin where the digits of positions are needed.
   virtual bool translation_invariant() const { return false; }

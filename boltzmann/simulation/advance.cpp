@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace boltzmann {
 
@@ -49,11 +50,12 @@ void Simulation::calculate(double time, std::int64_t step) {
   move_walls(time);
   if (small_system_.call) {
     small_system_.call(small_system_.data);
-  } else if (schemes_.size() == 1) {
+  } else if (schemes_.size() == 1 && !velocity_forces_.takes(*schemes_.front())) {
     schemes_.front()->calculate(time);
   } else {
     add_all_influences(time, step);
   }
+  if (velocity_forces_.any()) velocity_forces_.complete(time, in_second_kick_);
   influences_.calculated();
 }
 
@@ -64,6 +66,7 @@ void Simulation::add_all_influences(double time, std::int64_t step) {
       if (step % every(*scheme) == 0) scheme->bring_particles();
   for (auto* ensemble : ensembles_) ensemble->clear_influence();
   for (auto* scheme : schemes_) {
+    if (velocity_forces_.takes(*scheme)) continue;
     std::int64_t const steps = every(*scheme);
     if (steps == 1)
       scheme->add_influences(time);
@@ -99,6 +102,7 @@ void Simulation::advance(double dt, std::vector<Dissipation*> const& dissipation
     dissipation->advance(context);
     if (division_) division_->moved();
   }
+  if (!dissipations.empty() && velocity_forces_.any()) velocity_forces_.refresh(time() + dt);
   // Whoever looks may need other lists: who gets particles by them gets what they go on with.
   if (is_divided())
     division_->carry([this](AnyEnsemble const& of) {
@@ -118,18 +122,32 @@ void Simulation::advance(double dt, std::vector<Dissipation*> const& dissipation
 void Simulation::advance(double start, double dt) {
   StepContext const context{dt, static_cast<std::uint64_t>(step_), seed_};
   double passed = 0;
+  int const threads = schemes_.front()->threads();
+  bool const solves = velocity_forces_.any();
   for (int stage = 0; stage < stages_; ++stage) {
+    in_second_kick_ = solves && stage == 1;
     calculate(start + passed * dt, passed == 1 ? step_ + (dt > 0 ? 1 : -1) : step_);
-    for (auto& part : parts_) {
-      if (stage >= part.stages) continue;
+    auto const advance_part = [&](Part& part) {
+      if (stage >= part.stages) return;
+      bool const drifts = solves && stage == 0 && is_leap_frog(part);
+      if (drifts) velocity_forces_.begin_drift(*part.ensemble, start, threads);
       Motion const motion = part.integrator->advance(stage, context);
+      if (drifts) velocity_forces_.end_drift(*part.ensemble, start, dt, threads);
       if (division_) division_->moved();
-      if (motion == Motion::none) continue;
+      if (motion == Motion::none) return;
       influences_.outdated();
       passed = part.time_after[stage];
-      if (motion != Motion::final) continue;
+      if (motion != Motion::final) return;
       move_walls(start + passed * dt);
       keep_in_box(part);
+    };
+    // Particles that leap-frog advances have their final velocities before others move on.
+    for (auto& part : parts_)
+      if (!in_second_kick_ || (is_leap_frog(part) && !velocity_forces_.kicks(*part.ensemble))) advance_part(part);
+    if (std::exchange(in_second_kick_, false)) {
+      velocity_forces_.second_kick(stage, context, start + dt, is_divided() ? division_.get() : nullptr, threads);
+      for (auto& part : parts_)
+        if (!is_leap_frog(part)) advance_part(part);
     }
     // What integrators hold from here on goes with particles that change hands; before, it may be of other numbers.
     if (is_divided() && stage == 0)
@@ -155,6 +173,7 @@ StretchedSystem Simulation::stretched_system() {
   return {schemes_, ensembles_, momentum_is_kept_, [this] { return measure(); },
           [this](double time) {
             add_all_influences(time, 0);
+            if (velocity_forces_.any()) velocity_forces_.complete(time, false);
             if (is_divided()) division_->gather_influences();
           }};
 }
@@ -278,7 +297,7 @@ FusedSteps* Simulation::whole_steps(double dt, std::optional<Dependence> const& 
 
 std::unique_ptr<FusedSteps> Simulation::fused_steps(double dt) {
   if (schemes_.size() != 1 || !changes_.empty() || !dissipations_.empty() || !events_.empty() || !barostats_.empty() ||
-      substeps_)
+      substeps_ || velocity_forces_.any())
     return nullptr;
   std::vector<Mover> movers;
   for (auto const& part : parts_) {

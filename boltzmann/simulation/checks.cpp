@@ -3,6 +3,7 @@
 #include <boltzmann/integrators/driven_fields.hpp>
 #include <boltzmann/schemes/after_others.hpp>
 #include <boltzmann/schemes/molecules/molecule_scheme.hpp>
+#include <boltzmann/schemes/velocity_influences.hpp>
 #include <boltzmann/simulation/simulation.hpp>
 #include <boltzmann/simulation/start_forces.hpp>
 
@@ -38,14 +39,14 @@ void Simulation::make_ready() {
     Part const& part = ready_part(*ensemble);
     Method const method = part.integrator->method();
     bool const driven = !ensemble->driven().empty();
-    for (auto const* scheme : schemes_)
-      inside_step = inside_step || (method == Method::leap_frog && (driven || scheme->velocity_dependent(*ensemble)));
+    inside_step = inside_step || (method == Method::leap_frog && (driven || part.integrator->predicts_velocities()));
     stages_ = std::max(stages_, part.stages);
     reversible = reversible || method == Method::reversible_leap_frog;
   }
   std::erase_if(parts_, [&](Part const& p) {
     return std::find(ensembles_.begin(), ensembles_.end(), p.ensemble) == ensembles_.end();
   });
+  find_velocity_forces();
   check_methods();
   check_shear();
   take_lengths();
@@ -98,11 +99,15 @@ Simulation::Part const& Simulation::ready_part(AnyEnsemble& ensemble) {
   Part* part = part_of(ensemble);
   if (!part) part = &parts_.emplace_back(Part{&ensemble, usual_integrator(ensemble), 0, 0, {}, nullptr});
   part->integrator->threads(schemes_.front()->threads());
-  bool const takes = part->integrator->takes_rotations();
+  // Beside other forces that depend on the velocity a magnetic field is one of them.
+  bool takes = part->integrator->takes_rotations();
+  for (auto* scheme : schemes_)
+    if (auto const* laws = scheme->velocity_influences()) takes = takes && !laws->push(ensemble);
   std::vector<Rotation> rotations;
   for (auto* scheme : schemes_)
     for (auto const& rotation : scheme->rotations(ensemble, takes)) rotations.push_back(rotation);
-  if (takes) part->integrator->rotate(std::move(rotations));
+  if (part->integrator->takes_rotations())
+    part->integrator->rotate(takes ? std::move(rotations) : std::vector<Rotation>{});
   std::vector<RateSource*> sources;
   for (auto* scheme : schemes_)
     if (auto* source = scheme->rate_source(ensemble)) sources.push_back(source);
@@ -113,6 +118,38 @@ Simulation::Part const& Simulation::ready_part(AnyEnsemble& ensemble) {
   part->home = *std::find_if(schemes_.begin(), schemes_.end(),
                              [&](Scheme const* scheme) { return scheme->supervises(ensemble); });
   return *part;
+}
+
+/// Forces on particles that leap-frog advances.
+void Simulation::find_velocity_forces() {
+  std::vector<VelocityForces::Mover> movers;
+  for (auto* ensemble : ensembles_) {
+    Part const& part = *part_of(*ensemble);
+    if (is_leap_frog(part)) movers.push_back({ensemble, part.integrator.get()});
+  }
+  in_second_kick_ = false;
+  velocity_forces_.find(schemes_, movers);
+  check_velocity_forces();
+}
+
+/// The velocity at the end of a step is found together for all that act on each other.
+void Simulation::check_velocity_forces() const {
+  auto const moves = [this](AnyEnsemble const& ensemble) { return method(ensemble) != Method::deactivate; };
+  for (auto* scheme : schemes_) {
+    auto const* const laws = scheme->velocity_influences();
+    if (!laws) continue;
+    for (auto const* target : scheme->ensembles())
+      for (auto const* source : scheme->ensembles())
+        if (method(*target) != method(*source) && moves(*target) && moves(*source) &&
+            (method(*target) == Method::leap_frog || method(*source) == Method::leap_frog) &&
+            laws->couple(*target, *source))
+          throw Error(
+              fmt::format("forces between '{}' and '{}' depend on velocities, but '{}' moves by {} and '{}' by {}: use "
+                          "one integrator "
+                          "for both, leap-frog or rk4",
+                          target->name(), source->name(), target->name(), to_string(method(*target)), source->name(),
+                          to_string(method(*source))));
+  }
 }
 
 /// Those that advance all ensembles together don't mix with others.
@@ -168,7 +205,7 @@ void Simulation::check_substeps() const {
 }
 
 /// Impulses belong to steps that all have in common, and to forces of positions alone.
-void Simulation::check_slow_schemes() const {
+void Simulation::check_slow_schemes() {
   if (slow_.size() == schemes_.size())
     throw Error("every: all influences are calculated every so many steps; take a longer step instead");
   if (substeps_)
@@ -178,10 +215,14 @@ void Simulation::check_slow_schemes() const {
     if (method != Method::leap_frog && method != Method::deactivate)
       throw Error("every: influences of every so many steps are for leap-frog; ensemble '" + ensemble->name() +
                   "' moves by " + to_string(method));
-    for (auto const* scheme : schemes_)
-      if (scheme->velocity_dependent(*ensemble) || !ensemble->driven().empty() || any_comes_last(schemes_))
+    for (auto const& [scheme, steps] : slow_)
+      if (scheme->velocity_dependent(*ensemble))
         throw Error("every: influences of every so many steps may depend on positions alone; those on ensemble '" +
-                    ensemble->name() + "' depend on more");
+                    ensemble->name() + "' depend on velocities");
+    bool const predicts = part_of(*ensemble)->integrator->predicts_velocities() || !ensemble->driven().empty();
+    if (predicts || any_comes_last(schemes_))
+      throw Error("every: influences of every so many steps may depend on positions alone; those on ensemble '" +
+                  ensemble->name() + "' depend on more");
   }
 }
 

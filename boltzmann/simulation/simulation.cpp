@@ -395,6 +395,7 @@ void Simulation::equilibrate_now() {
     dissipation->threads(schemes_.front()->threads());
     std::vector<std::array<double, 3>> drifts;
     for (auto* ensemble : dissipation->ensembles()) drifts.push_back(come_to_rest(*ensemble));
+    if (velocity_forces_.any()) influences_.outdated();
     // A stop waits until the end: nothing could go on with half an equilibration.
     for (std::uint64_t n = 0; n < steps; ++n) {
       try {
@@ -444,6 +445,7 @@ void Simulation::begin() {
 
 void Simulation::run(std::uint64_t steps, int direction) {
   std::atomic_ref(pause_).store(false, std::memory_order_relaxed);
+  in_second_kick_ = false;
   check();
   struct Running {
     explicit Running(Simulation& of) : simulation(of) { simulation.running_ = true; }

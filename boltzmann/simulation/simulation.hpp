@@ -11,6 +11,7 @@
 #include <boltzmann/simulation/freshness.hpp>
 #include <boltzmann/simulation/minimise.hpp>
 #include <boltzmann/simulation/substeps.hpp>
+#include <boltzmann/simulation/velocity_forces.hpp>
 
 #include <array>
 #include <atomic>
@@ -190,6 +191,7 @@ class Simulation {
     std::vector<double> time_after;  // of each stage
     Scheme* home;                    // the first that supervises the ensemble: its box keeps the particles
   };
+  static bool is_leap_frog(Part const& part) { return part.integrator->method() == Method::leap_frog; }
   // Those that are forgotten during a run go when it ends.
   struct Observation {
     Attendant attendant;
@@ -233,9 +235,11 @@ class Simulation {
   void check_start(bool added);
   std::vector<Moved> moved() const;
   Part const& ready_part(AnyEnsemble& ensemble);
+  void find_velocity_forces();
   void check_methods();
+  void check_velocity_forces() const;
   void check_substeps() const;
-  void check_slow_schemes() const;
+  void check_slow_schemes();
   void check_influences() const;
   void check_dissipations();
   void check_barostats();
@@ -325,6 +329,8 @@ class Simulation {
   std::optional<MinimiseOptions> minimisation_;
   std::optional<Minimised> minimised_;
   GaussRadau gauss_radau_;
+  VelocityForces velocity_forces_;
+  bool in_second_kick_ = false;  // influences are calculated for it
   std::optional<SubstepOptions> substeps_;
   SubstepCounts substep_counts_;
   std::vector<double> before_substep_, of_others_;

@@ -130,6 +130,7 @@ class MeshScheme : public Scheme {
   std::unique_ptr<FusedSteps> fused_steps(std::vector<Mover> const& movers, double dt) override;
   std::vector<Rotation> rotations(AnyEnsemble const& ensemble, bool taken) override;
   bool velocity_dependent(AnyEnsemble const& ensemble) const override { return pairs_.velocity_dependent(ensemble); }
+  VelocityInfluences* velocity_influences() override { return pairs_.velocity_influences(); }
   std::string undivided() const override;
   bool measures_sums() const override { return pairs_.measures_sums(); }
   bool shares_out() const override { return pairs_.shares_out(); }

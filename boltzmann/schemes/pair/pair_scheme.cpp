@@ -94,42 +94,48 @@ void PairScheme::calculate(double time, bool overwrite) {
     return !ensemble->driven().empty();
   });
   auto const first_on = [&](AnyEnsemble* ensemble) { return std::erase(clear, ensemble) > 0; };
-  for (auto const& near : near_) {
-    near->locate(quantum_, neighbourhood_);
-    if (near->factor != 1) near->whole_instead();
-    near->task.overwrite = near->factor != 1 || (near->traits.moves() && first_on(near->target));
-    PairTask const& task = near->task;
-    PairKernel const kernel = near->all_pairs() ? near->kernels.all
-                              : quantum_ > 0    ? near->kernels.list_reversible
-                                                : near->kernels.list;
-    if (near->few)
-      near->few(near->law.get(), task, 0, task.targets);
-    else
-      over_targets(*near, task, near->pairs, threads(),
-                   [&](std::size_t begin, std::size_t end) { kernel(near->law.get(), task, begin, end); });
-    if (near->factor != 1) near->add_part();
-    if (!box().any_wall()) continue;
-    pairs::check_walls(box(), *near->target, *near->source, near->cutoff);
-    PairTask const beyond = near->task_of_images(box());
-    std::size_t const pairs = beyond.targets * beyond.sources;
-    over_targets(*near, beyond, pairs, threads(),
-                 [&](std::size_t begin, std::size_t end) { kernel(near->law.get(), beyond, begin, end); });
-  }
+  for (auto const& near : near_)
+    if (calculated(near->traits)) apply(*near, near->factor == 1 && near->traits.moves() && first_on(near->target));
   for (auto* ensemble : clear) ensemble->clear_influence();
-  for (auto const& connected : connected_) {
-    PairTask const task = connected->task(box());
-    for_share(*connected->ensemble, 4 * pairs::particle_grain,
-              threads_for(connected->list.index.size(), pair_work, threads()), [&](std::size_t begin, std::size_t end) {
-                connected->kernels.connected(connected->law.get(), task, begin, end);
-              });
-  }
+  for (auto const& connected : connected_)
+    if (calculated(connected->traits)) apply(*connected);
   for (auto const& external : external_)
-    if (!external->traits.rates) external->add(time, threads());
+    if (!external->traits.rates && calculated(*external)) external->add(time, threads());
   for (auto const& external : external_) {
     if (!external->traits.rates) continue;
     external->time = time;
     if (!external->source.leave()) external->add(time, threads());
   }
+}
+
+/// Adds what a law gives to its targets, or stores it if `overwrite`. Rows and lists are up to date.
+void PairScheme::apply(Near& near, bool overwrite) {
+  near.locate(quantum_, neighbourhood_);
+  if (near.factor != 1) near.whole_instead();
+  near.task.overwrite = near.factor != 1 || overwrite;
+  PairTask const& task = near.task;
+  PairKernel const kernel = near.all_pairs() ? near.kernels.all
+                            : quantum_ > 0   ? near.kernels.list_reversible
+                                             : near.kernels.list;
+  if (near.few)
+    near.few(near.law.get(), task, 0, task.targets);
+  else
+    over_targets(near, task, near.pairs, threads(),
+                 [&](std::size_t begin, std::size_t end) { kernel(near.law.get(), task, begin, end); });
+  if (near.factor != 1) near.add_part();
+  if (!box().any_wall()) return;
+  pairs::check_walls(box(), *near.target, *near.source, near.cutoff);
+  PairTask const beyond = near.task_of_images(box());
+  std::size_t const pairs = beyond.targets * beyond.sources;
+  over_targets(near, beyond, pairs, threads(),
+               [&](std::size_t begin, std::size_t end) { kernel(near.law.get(), beyond, begin, end); });
+}
+
+void PairScheme::apply(Connected const& connected) {
+  PairTask const task = connected.task(box());
+  for_share(
+      *connected.ensemble, 4 * pairs::particle_grain, threads_for(connected.list.index.size(), pair_work, threads()),
+      [&](std::size_t begin, std::size_t end) { connected.kernels.connected(connected.law.get(), task, begin, end); });
 }
 
 /// The program that alone says all rates of an ensemble's fields; null: laws add to them.
@@ -173,6 +179,7 @@ Scheme::SmallSystem PairScheme::small_system() {
   if (near_.size() != 1 || !connected_.empty() || from_outside || ensembles().size() != 1 || box().any_wall())
     return {};
   Near& only = *near_.front();
+  if (!calculated(only.traits)) return {};
   only.locate(quantum_, neighbourhood_);
   if (!only.few) return {};
   only.overwriting = only.task;

@@ -11,6 +11,7 @@
 #include <boltzmann/schemes/pair/external_kernels.hpp>
 #include <boltzmann/schemes/pair/pair_kernels.hpp>
 #include <boltzmann/schemes/scheme.hpp>
+#include <boltzmann/schemes/velocity_influences.hpp>
 
 #include <concepts>
 #include <limits>
@@ -24,7 +25,7 @@ namespace boltzmann {
 
 inline constexpr double no_cutoff = std::numeric_limits<double>::infinity();
 
-class PairScheme final : public Scheme {
+class PairScheme final : public Scheme, private VelocityInfluences {
  public:
   /// `cutoff`: the distance beyond which influences are taken as zero, for laws that don't say otherwise. Error if it
   /// is not positive or longer than a periodic axis. Without a cut-off all pairs are summed; periodic axes then have no
@@ -139,6 +140,8 @@ class PairScheme final : public Scheme {
   std::vector<Rotation> rotations(AnyEnsemble const& ensemble, bool taken) override;
   RateSource* rate_source(AnyEnsemble const& ensemble) override;
   bool velocity_dependent(AnyEnsemble const& ensemble) const override;
+  /// Finds C++ laws that read velocities without declaring it, by trying them on particles as they are now.
+  VelocityInfluences* velocity_influences() override;
   bool follows_box() const override { return true; }
   /// Lists are built anew. PhysicsFailure if a cut-off is longer than a periodic axis now.
   void box_changed() override;
@@ -180,6 +183,8 @@ class PairScheme final : public Scheme {
     bool rates = false;          ///< it gives those of all driven fields; sums must be known before
 
     bool moves() const { return changes < 0; }
+    /// True if it is a force (or another influence) that depends on velocities.
+    bool pushes_by_velocity() const { return velocity_dependent && moves() && !rates; }
     std::shared_ptr<PairNumbers const> typed = {};  ///< a formula, which is sampled to know its length
     bool positions_alone = false;                   ///< it reads no other fields of particles
   };
@@ -238,7 +243,21 @@ class PairScheme final : public Scheme {
   struct BondedPairs;
   struct External;
 
+  // velocity_laws.cpp
+  bool act_from_outside(AnyEnsemble const& ensemble) const override;
+  bool act_between(AnyEnsemble const& target) const override;
+  bool couple(AnyEnsemble const& target, AnyEnsemble const& source) const override;
+  bool push(AnyEnsemble const& ensemble) const override;
+  void separate(std::vector<AnyEnsemble const*> from_outside, bool between) override;
+  void add_from_outside(AnyEnsemble const& ensemble, OutsideTask const& task) const override;
+  void add_between() override;
+  /// True if add_influences() calculates this law between particles, or these from outside.
+  bool calculated(LawTraits const& traits) const { return !(separate_between_ && traits.pushes_by_velocity()); }
+  bool calculated(External const& external) const;
+
   void calculate(double time, bool overwrite);
+  void apply(Near& near, bool overwrite);
+  void apply(Connected const& connected);
   void find_rows();
   External* only_rates(AnyEnsemble const& ensemble) const;
   void clear_driven(AnyEnsemble& ensemble) const;
@@ -256,9 +275,11 @@ class PairScheme final : public Scheme {
   double quantum_ = 0;
   bool shifted_ = true;
   std::size_t calculations_ = 0;
-  Division* division_ = nullptr;  // while a run is divided
-  bool reads_all_ = false;        // of what other ranks own
-  bool brought_ = false;          // for the calculation that comes
+  Division* division_ = nullptr;   // while a run is divided
+  bool reads_all_ = false;         // of what other ranks own
+  bool brought_ = false;           // for the calculation that comes
+  bool separate_between_ = false;  // add_influences() leaves these out, and
+  std::vector<AnyEnsemble const*> separate_outside_;
   Neighbourhood neighbourhood_;
   std::vector<std::unique_ptr<Near>> near_;
   std::vector<std::unique_ptr<Connected>> connected_;

@@ -168,6 +168,7 @@ void PairScheme::add_external(AnyEnsemble& ensemble, ExternalKernels kernels, La
   external->traits = traits;
   external->everyone = only == nullptr;
   if (only) external->only = *only;
+  std::sort(external->only.begin(), external->only.end());
   for (auto const i : external->only) {
     external->last = std::max<std::size_t>(external->last, i);
     if (i >= ensemble.size())
