@@ -159,8 +159,54 @@ void Simulation::advance(double start, double dt) {
   }
 }
 
+namespace {
+
+/// While it lives, rows have the velocities of the half step instead of predicted ones. What the ends of the box do to
+/// the former happens to the latter, too.
+class HalfStepVelocities {
+ public:
+  HalfStepVelocities(AnyEnsemble& ensemble, double* half) : ensemble_(ensemble), half_(half) {
+    if (!half_) return;
+    Field const& velocity = ensemble.field("velocity");
+    offset_ = velocity.offset;
+    D_ = static_cast<std::size_t>(velocity.components);
+    predicted_.resize(D_ * ensemble.size());
+    each([](double& v, double& half, double& predicted) {
+      predicted = v;
+      v = half;
+    });
+  }
+  ~HalfStepVelocities() {
+    if (!half_) return;
+    each([](double& v, double& half, double& predicted) {
+      if (v != half) predicted += v - half;
+      half = v;
+      v = predicted;
+    });
+  }
+  HalfStepVelocities(HalfStepVelocities const&) = delete;
+  HalfStepVelocities& operator=(HalfStepVelocities const&) = delete;
+
+ private:
+  template <class F>
+  void each(F const& f) {
+    for (std::size_t i = 0; i < ensemble_.size(); ++i)
+      for (std::size_t a = 0; a < D_; ++a)
+        f(ensemble_.row(i)[offset_ + static_cast<int>(a)], half_[i * D_ + a], predicted_[i * D_ + a]);
+  }
+
+  AnyEnsemble& ensemble_;
+  double* half_;
+  int offset_ = 0;
+  std::size_t D_ = 0;
+  std::vector<double> predicted_;
+};
+
+}  // namespace
+
 /// Puts back what has left the box during a step.
 void Simulation::keep_in_box(Part& part) {
+  HalfStepVelocities const half_step(*part.ensemble, part.integrator->half_step_velocities());
   try {
     Division* const division = is_divided() ? division_.get() : nullptr;
     work_ += part.home->box().apply(*part.ensemble, part.home->threads(), division);

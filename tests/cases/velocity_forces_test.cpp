@@ -335,6 +335,18 @@ TEST(VelocityForces, SchemesOfTheUser) {
         8);
 }
 
+// Leap-frog put back the velocity of before the wall where a class has fields with rates: particles stayed at walls.
+TEST(VelocityForces, ClassesWithRatesAreReflected) {
+  Rows const rows = rows_of(
+      {"walls", "low = [0]\nhigh = [1]\nboundary = \"reflecting\"", "",
+       "[[classes]]\nname = \"Grain\"\nbase = \"Newton\"\nfields = [{ name = \"age\" }]\nrate.age = \"1\"\n" +
+           ensemble("a", "Grain", "mass = 1\nvelocity = [1]\nload = { kind = \"positions\", positions = [[0.5]] }"),
+       2.25},
+      225);
+  EXPECT_NEAR(rows[0], 0.75, 1e-12);
+  EXPECT_NEAR(rows[1], 1, 1e-12);
+}
+
 // ---- Forces perpendicular to the velocity ----
 
 /// The energy at the end of 1,000 turns with w dt = 0.1, and the largest on the way, in parts of that at the start.

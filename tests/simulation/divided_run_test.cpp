@@ -215,14 +215,23 @@ void expect_bytes_of_geometry(bool with_drag, double of_row) {
       if (builds[k] != builds[k - 1]) continue;
       ++checked;
       auto const waits = counts[k].collectives - counts[k - 1].collectives;
-      EXPECT_TRUE(waits == 4 || waits == 5) << waits << "; about every tenth of a second ranks ask who stops";
+      auto const messages = counts[k].messages - counts[k - 1].messages, calculations = messages / 2;
+      if (with_drag) {  // the second kick is solved for the velocity: several calculations, each with a vote on its change
+        EXPECT_GE(calculations, 3U);
+        EXPECT_LE(calculations, 10U);
+        EXPECT_LE(waits, 5 * calculations + 2);
+      } else {
+        EXPECT_TRUE(waits == 4 || waits == 5) << waits << "; about every tenth of a second ranks ask who stops";
+        EXPECT_EQ(calculations, 1U);
+      }
       fewest = std::min(fewest, waits);
       quick = quick || times[k] - times[k - 1] < std::chrono::milliseconds(40);
-      EXPECT_EQ(counts[k].messages - counts[k - 1].messages, 2U);
-      EXPECT_NEAR(static_cast<double>(counts[k].bytes - counts[k - 1].bytes) / bytes, 1, 0.03);
+      EXPECT_NEAR(
+          static_cast<double>(counts[k].bytes - counts[k - 1].bytes) / (bytes * static_cast<double>(calculations)), 1,
+          0.03);
     }
     EXPECT_GT(checked, 5);
-    if (quick) {  // where every step takes a tenth of a second, each has asked
+    if (quick && !with_drag) {  // where every step takes a tenth of a second, each has asked
       EXPECT_EQ(fewest, 4U);
     }
   });
