@@ -4,15 +4,25 @@
 #include <boltzmann/core/team.hpp>
 #include <boltzmann/files/checkpoint.hpp>
 #include <boltzmann/files/folder_lock.hpp>
+#include <boltzmann/simulation/conserved.hpp>
 #include <boltzmann/sweep/run_sweep.hpp>
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 
 namespace boltzmann::bzm {
 namespace {
+
+bool influences_are_finite(Simulation const& simulation) {
+  return std::all_of(simulation.ensembles().begin(), simulation.ensembles().end(), [](AnyEnsemble* ensemble) {
+    auto const influences = ensemble->influences();
+    return std::all_of(influences.begin(), influences.end(), [](double x) { return std::isfinite(x); });
+  });
+}
 
 void print_heading(ScenarioSimulation const& scenario, std::string const& folder) {
   fmt::print("{} -> {}\n", scenario.title.empty() ? scenario.name : scenario.title, folder);
@@ -130,6 +140,8 @@ int check(std::string const& name, Overrides const& overrides) {
       make_recording(*scenario, std::filesystem::temp_directory_path().string(), {.overwrite = true});
   scenario->simulation->check();
   recording->check();
+  if (influences_are_finite(*scenario->simulation))  // [minimise] may still have to make them so
+    need_finite(*scenario->simulation, conserved(*scenario->simulation));
   print_warnings(*scenario->simulation, {.quiet = true});
   std::size_t particles = 0, bytes = 0;
   for (auto const& scheme : scenario->schemes) bytes += scheme->bytes();  // now that lists and meshes are there

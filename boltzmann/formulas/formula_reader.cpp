@@ -507,14 +507,11 @@ class Reader {
       need_pure(of.values[0], of.places[0], fmt::format("{} is taken of pure numbers; this", name));
       double const sign = name == "floor" ? 1 : -1;
       result.components[0] = graph_.scale(sign, graph_.apply(Operation::floor, graph_.scale(sign, of[0])));
-    } else if (name == "mod") {  // a - b floor(a/b)
-      result.dimension = same(of.values[0], of.values[1], of.places[1], "compared");
-      Expression const times = graph_.apply(Operation::floor, graph_.divide(of[0], of[1]));
-      result.components[0] = graph_.subtract(of[0], graph_.multiply(of[1], times));
-    } else {  // min, max, atan2
+    } else {  // min, max, mod, atan2
       result.dimension = same(of.values[0], of.values[1], of.places[1], "compared");
       result.components[0] = graph_.apply(name == "min"   ? Operation::min
                                           : name == "max" ? Operation::max
+                                          : name == "mod" ? Operation::mod
                                                           : Operation::atan2,
                                           of[0], of[1]);
       if (name == "atan2") result.dimension = {};
