@@ -141,7 +141,7 @@ void arguments(Function const& function, std::vector<double>& x, std::vector<dou
   };
   auto const any = [&] { return std::bit_cast<double>(random()); };
   auto const add = [&](double a, double b) { x.push_back(a), y.push_back(b); };
-  constexpr int each = 20000;
+  constexpr int each = 3000;
   for (auto const& of_x : function.of_x)
     for (auto const& of_y : function.of_y)
       for (int k = 0; k < each; ++k) add(within(of_x), within(of_y));
@@ -171,7 +171,7 @@ void expect_accurate(Function const& function, std::vector<double> const& x, std
     if (error > worst) worst = error, where = k;
     bool const same = std::bit_cast<std::uint64_t>(interpreted[k]) == std::bit_cast<std::uint64_t>(compiled[k]) ||
                       (std::isnan(interpreted[k]) && std::isnan(compiled[k]));
-    if (comparable) ASSERT_TRUE(same) << function.text << " at " << x[k] << ", " << y[k];
+    if (comparable && !same) FAIL() << function.text << " at " << x[k] << ", " << y[k];
   }
   EXPECT_LE(worst, bound_of(function) + 1e-3)
       << fmt::format("{} at x = {}, y = {}, {} at a time", function.text, x[where], y[where], W);
@@ -226,7 +226,7 @@ TEST(FormulaAccuracy, HyperbolicSinesAreFiniteAsLongAsTheirValuesAre) {
   expect_value("sinh(800)", "sinh(x)", 800, infinity);
   expect_value("sinh(-800)", "sinh(x)", -800, -infinity);
   expect_value("cosh(-800)", "cosh(x)", -800, infinity);
-  EXPECT_LT(error_in_ulp(Way("sinh(x)").by_program<4>({710.4}, {0}, false)[0], std::sinh(710.4L)), 2);
+  EXPECT_LT(error_in_ulp(Way("sinh(x)").by_program<4>({710.4}, {0}, false)[0], std::sinh(static_cast<long double>(710.4))), 2);
   EXPECT_EQ(Way("sinh(x)").by_program<4>({-0.0}, {0}, true)[0], 0);
 }
 
