@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdlib>
 
 namespace boltzmann::singular_test {
 namespace {
@@ -96,6 +97,105 @@ TEST(AtOnePlace, LawsThatAreNotFiniteThereAreRefusedByName) {
             << pair.law << more << outcome.err;
       }
     }
+}
+
+/// The bits of a table by machine code are those of the interpreter.
+TEST(AtOnePlace, TypedLawsHaveTheSameBitsInterpreted) {
+  for (std::string const law :
+       {"energy = \"1.5*(norm(separation) - 1)^2\"", "energy = \"2*abs(separation.x) + exp(-r)\"",
+        "energy = \"cosh(r) + mod(r + 0.25, 0.5)\""}) {
+    Case const one("a", text_of({law, 3, "periodic", "cutoff = 3"}));
+    auto const table = [&] { return test::text_of(one / "run/diagnoses.csv"); };
+    ASSERT_EQ(one.run({"--quiet"}).status, 0) << law;
+    auto const compiled = table();
+    setenv("BOLTZMANN_FORMULAS", "interpreted", 1);
+    auto const ran = one.run({"--quiet"});
+    unsetenv("BOLTZMANN_FORMULAS");
+    ASSERT_EQ(ran.status, 0) << ran.err;
+    EXPECT_EQ(table(), compiled) << law;
+  }
+}
+
+TEST(AtTheCentre, FieldsFromOutsideHaveTheirEnergyAndNoForce) {
+  struct Field {
+    std::string energy;
+    double at_centre;
+  };
+  for (auto const& [energy, at_centre] : {Field{"1.5*(norm(position - [5, 5]) - 1)^2", 1.5},
+                                          {"norm(position - [5, 5])", 0},
+                                          {"abs(x - 5) + 3", 3},
+                                          {"exp(-norm(position - [5, 5]))", 1},
+                                          {"sqrt((x - 5)^2 + (y - 5)^2)", 0}}) {
+    Case const one("a", text_of({"energy = \"" + energy + "\"\nfrom_outside = true"}));
+    auto const ran = one.run({"--quiet"});
+    ASSERT_EQ(ran.status, 0) << energy << ran.err;
+    for (double const total : one.column("total energy")) EXPECT_NEAR(total, 2 * at_centre, 1e-12) << energy;
+  }
+  for (std::string const energy : {"log(norm(position - [5, 5]))", "1/norm(position - [5, 5])"}) {
+    Case const one("a", text_of({"energy = \"" + energy + "\"\nfrom_outside = true"}));
+    for (auto const& outcome : {one.check(), one.run({"--quiet"})}) {
+      EXPECT_EQ(outcome.status, 2) << energy;
+      EXPECT_NE(outcome.err.find("particle 0 of 'a'"), std::string::npos) << outcome.err;
+    }
+  }
+}
+
+TEST(InLine, AnglesAndDihedralsHaveTheirEnergyAndNoForce) {
+  struct Tuple {
+    std::string energy, positions;
+    double expected;
+  };
+  std::string const three = "\nangles = [[0, 1, 2]]", four = "\ndihedrals = [[0, 1, 2, 3]]";
+  double const pi = 3.14159265358979323846;
+  for (auto const& [energy, positions, expected] :
+       {Tuple{"energy = \"(angle - 2)^2\"" + three, "[[1, 1, 1], [2, 1, 1], [3, 1, 1]]", (pi - 2) * (pi - 2)},
+        {"energy = \"(angle - 2)^2\"" + three, "[[1, 1, 1], [2, 1, 1], [1, 1, 1]]", 4},
+        {"energy = \"abs(angle - pi)\"" + three, "[[1, 1, 1], [2, 1, 1], [3, 1, 1]]", 0},
+        {"energy = \"cos(dihedral)\"" + four, "[[1, 1, 1], [2, 1, 1], [3, 1, 1], [4, 1, 1]]", 1}}) {
+    Case const one("a", text_of({energy, 3, "open", "", "class = \"Newton\"\nmass = 1", positions}));
+    auto const ran = one.run({"--quiet"});
+    ASSERT_EQ(ran.status, 0) << energy << ran.err;
+    for (double const total : one.column("total energy")) EXPECT_NEAR(total, expected, 1e-12) << energy;
+  }
+  // Without an arm there is no angle, and the message names the members.
+  Case const one("a", text_of({"energy = \"(angle - 2)^2\"" + three, 3, "open", "", "class = \"Newton\"\nmass = 1",
+                               "[[1, 1, 1], [3, 1, 1], [3, 1, 1]]"}));
+  auto const checked = one.check();
+  EXPECT_EQ(checked.status, 2);
+  EXPECT_NE(checked.err.find("angle 0 of 'a' is not defined: its particles 1 and 2 are at the same place"),
+            std::string::npos)
+      << checked.err;
+}
+
+TEST(EnergyThatIsNotFinite, NeverGetsIntoATable) {
+  // Energies are counted from the cut-off, where this spring is torn.
+  Case const one("a", text_of({"law = \"fene\"\nstiffness = 1\nmax_length = 1.5", 2, "open", "cutoff = 3",
+                               "class = \"Newton\"\nmass = 1", "[[1, 1], [2, 1]]"}));
+  auto const checked = one.check();
+  EXPECT_EQ(checked.status, 3) << checked.out;
+  EXPECT_NE(checked.err.find("the potential energy is not finite"), std::string::npos) << checked.err;
+  EXPECT_NE(checked.err.find("particle 0 of 'a'"), std::string::npos) << checked.err;
+  EXPECT_EQ(one.run({"--quiet"}).status, 3);
+}
+
+TEST(FarFromTheBox, ParticlesAreRefusedWhereRoundingHidesTheirPlace) {
+  std::string const newton = "class = \"Newton\"\nmass = 1", soft = "law = \"soft\"\nrepulsion = 1\nrange = 1";
+  auto const at = [&](std::string const& x, std::string const& boundary, std::string const& box = "") {
+    return Case("a", text_of({soft, 2, boundary, "cutoff = 1", newton, "[[1, 1], [" + x + ", 2]]", box}));
+  };
+  for (std::string const x : {"1e300", "-1e300", "1e17"})
+    for (std::string const box : {"", "shear = { rate = 0.1 }"}) {
+      auto const far = at(x, "periodic", box);
+      for (auto const& outcome : {far.check(), far.run({"--quiet"})}) {
+        EXPECT_EQ(outcome.status, 2) << x << box << outcome.out;
+        EXPECT_NE(outcome.err.find("particle 1 of 'a' is too far from the box: x = "), std::string::npos)
+            << outcome.err;
+      }
+    }
+  for (std::string const boundary : {"reflecting", "mirror"})
+    EXPECT_NE(at("1e300", boundary).check().err.find("particle 1 of 'a' is outside the box"), std::string::npos);
+  EXPECT_EQ(at("8e16", "periodic").check().status, 0);  // 8e15 lengths: below 2^53
+  EXPECT_EQ(at("1e300", "open").check().status, 0);     // nothing is folded there
 }
 
 }  // namespace

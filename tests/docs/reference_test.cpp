@@ -162,7 +162,7 @@ std::string dissipations() {
 std::string formula_functions_and_rules() {
   std::string text = "| function | what it is | error below (ulp) |\n|---|---|---|\n";
   for (auto const& function : formula_function_table())
-    text += fmt::format("| `{}` | {} | {} |\n", function.name, cell(function.doc),
+    text += fmt::format("| `{}` | {} | {} |\n", function.name, function.doc,
                         function.error > 0    ? fmt::format("{:g}", function.error)
                         : function.error == 0 ? "exact"
                                               : "sum of products");
