@@ -388,13 +388,13 @@ class Maker {
       for (std::size_t c = 0; c < D; ++c) inputs[c] *= scale;
       inputs[D] = distance * distance;
       for (std::size_t k = D + 1; k < inputs.size(); ++k) inputs[k] = some_number(static_cast<std::uint32_t>(k), 0);
-      double largest = 0;
-      for (auto const result : results)
-        largest = std::max(largest, std::fabs(graph_.value(result, inputs)) * (along ? distance : 1));
-      return largest;
+      double sum = 0;  // NaN if one of them is
+      for (auto const result : results) sum += std::fabs(graph_.value(result, inputs)) * (along ? distance : 1);
+      return sum;
     };
     constexpr double near = 1e-110, nearer = 1e-130;
-    return strength(nearer) > 10 * strength(near);
+    double const there = strength(nearer);
+    return !std::isfinite(there) || there > 10 * strength(near);
   }
 
   /// On the target: (source - target) 2 dU/ds, and dU/dd where the energy knows directions.
