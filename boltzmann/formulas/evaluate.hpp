@@ -70,6 +70,25 @@ template <int W>
   return half + 0.25 / half;
 }
 
+/// floored_remainder() of each lane; the same bits.
+template <int W>
+[[gnu::always_inline]] inline Pack<double, W> mod(Pack<double, W> a, Pack<double, W> b) {
+  using Real = Pack<double, W>;
+#if defined(__FMA__)
+  Real const quotient = a / b;
+  Real rest;
+  for (int lane = 0; lane < W; ++lane)
+    rest.native[lane] = __builtin_fma(-__builtin_floor(quotient.native[lane]), b.native[lane], a.native[lane]);
+  rest = select(((rest < 0.0) & (b > 0.0)) | ((rest > 0.0) & (b < 0.0)), rest + b, rest) + 0.0;  // no -0
+  auto const exact = (abs(quotient) < 0x1p52) & (abs(b) < __builtin_inf()) & (rest != b);
+  if (!any(!exact)) [[likely]]
+    return rest;
+#endif
+  Real result;
+  for (int lane = 0; lane < W; ++lane) result.native[lane] = floored_remainder(a.native[lane], b.native[lane]);
+  return result;
+}
+
 /// How far the next pack of an operand is.
 template <int W>
 [[gnu::always_inline]] inline std::size_t stride_of(Operand operand) {
@@ -178,7 +197,7 @@ template <int W>
     case Operation::atan2:
       return each_lane<W>(work, step, packs, [](double a, double b) { return std::atan2(a, b); });
     case Operation::mod:
-      return each_lane<W>(work, step, packs, [](double a, double b) { return floored_remainder(a, b); });
+      return each<W>(work, step, packs, [](Real a, Real b, Real) { return detail::mod(a, b); });
     case Operation::floor:
       return each_lane<W>(work, step, packs, [](double a, double) { return std::floor(a); });
   }
