@@ -1,7 +1,6 @@
 // The functions that a formula may name: what they are, how exact they are, and what laws make of formulas.
 #pragma once
 
-#include <array>
 #include <span>
 #include <string_view>
 
@@ -21,23 +20,22 @@ std::span<FormulaFunction const> formula_function_table();
 FormulaFunction const* formula_function(std::string_view name);
 
 /// What is the same for all formulas, a sentence or two each, for `bzm show formulas` and the guide.
-inline constexpr std::array formula_rules{
-    std::string_view(
-        "Conditions, initial fields and diagnoses are calculated as they are written. Laws, rates and materials are "
-        "simplified first: equal terms and equal powers are merged. So y/y is 1, y - y and 0*y are 0, and sqrt(y)^2 is "
-        "y, "
-        "also where y is 0, infinite or negative. Sums and products may be reordered."),
-    std::string_view("In laws, a power with a whole or half exponent up to 64 is a product; its error is up to its "
-                     "exponent in units in "
-                     "the last place."),
-    std::string_view("If two particles are at one place, r is 1e-140 and the separation 0. A law whose force stays "
-                     "finite as r falls has "
-                     "its energy there and no force. Any other law is refused, and the message names the particles. "
-                     "norm(separation) "
-                     "and sqrt(dot(separation, separation)) are r."),
-    std::string_view("The slope of abs is 0 at 0, and that of norm is 0 where the vector is 0. So a field that depends "
-                     "on the distance "
-                     "from its centre, 5*norm(position - centre), gives a particle in the centre no force."),
+inline constexpr std::string_view formula_rules[] = {
+    "Conditions, initial fields and diagnoses are calculated as they are written. Laws, rates and materials are "
+    "simplified first: equal terms and equal powers are merged. So y/y is 1, y - y and 0*y are 0, and sqrt(y)^2 is y, "
+    "also where y is 0, infinite or negative. Sums and products may be reordered.",
+
+    "In laws, a power with a whole or half exponent up to 64 is a product; its error is up to its exponent in units in "
+    "the last place.",
+
+    "If two particles are at one place, r is 1e-140 and the separation 0. A law whose force stays finite as r falls "
+    "has "
+    "its energy there and no force. Any other law is refused, and the message names the particles. norm(separation) "
+    "and "
+    "sqrt(dot(separation, separation)) are r.",
+
+    "The slope of abs is 0 at 0, and that of norm is 0 where the vector is 0. So a field that depends on the distance "
+    "from its centre, 5*norm(position - centre), gives a particle in the centre no force.",
 };
 
 }  // namespace boltzmann

@@ -92,7 +92,8 @@ class ColumnSum {
       // Less the energy at the cut-off in the same direction; along x where two particles are at one place.
       for (std::size_t k = 0; k < packs; ++k) {
         Real const s = load_pack<W>(square + k * W), stretched = zero_at * rsqrt(s);
-        auto const valid = s<cutoff2, apart = s> least_square;
+        auto const valid = s < cutoff2;
+        auto const apart = s > least_square;
         for (std::size_t c = 0; c < D; ++c)
           store_pack<W>(work.column(c) + k * W,
                         select(apart, load_pack<W>(d[c] + k * W) * stretched, Real(c == 0 ? zero_at : 0.0)));
