@@ -25,14 +25,11 @@ inline constexpr std::string_view formula_rules[] = {
     "simplified first: equal terms and equal powers are merged. So y/y is 1, y - y and 0*y are 0, and sqrt(y)^2 is y, "
     "also where y is 0, infinite or negative. Sums and products may be reordered.",
 
-    "In laws, a power with a whole or half exponent up to 64 is a product; its error is up to its exponent in units in "
-    "the last place.",
+    "In laws, a power with a whole or half exponent n up to 64 is a product. Its relative error is below 2.2e-16 n.",
 
     "If two particles are at one place, r is 1e-140 and the separation 0. A law whose force stays finite as r falls "
-    "has "
-    "its energy there and no force. Any other law is refused, and the message names the particles. norm(separation) "
-    "and "
-    "sqrt(dot(separation, separation)) are r.",
+    "has its energy there and no force. Any other law is refused, and the message names the particles. "
+    "norm(separation) and sqrt(dot(separation, separation)) are r.",
 
     "The slope of abs is 0 at 0, and that of norm is 0 where the vector is 0. So a field that depends on the distance "
     "from its centre, 5*norm(position - centre), gives a particle in the centre no force.",
