@@ -375,8 +375,10 @@ class Maker {
     for (std::uint32_t c = 0; c < static_cast<std::uint32_t>(dimension_); ++c)
       squares.push_back({graph_.product({{graph_.input(c), 2}}), 1});
     if (dimension_ > 1) return graph_.with_sum(value, squares, square_);
-    Expression const distance = graph_.apply(Operation::abs, graph_.input(0));
-    return graph_.with_sum(value, squares, square_, {{squares[0].node, square_}, {distance, graph_.root(square_)}});
+    Expression const r = graph_.root(square_), step = graph_.input(0);
+    Expression const there = graph_.apply(Operation::abs, step),
+                     back = graph_.apply(Operation::abs, graph_.scale(-1, step));
+    return graph_.with_sum(value, squares, square_, {{squares[0].node, square_}, {there, r}, {back, r}});
   }
 
   /// Whether the influence grows without bounds as two particles approach each other.
