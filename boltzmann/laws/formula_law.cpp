@@ -382,7 +382,8 @@ class Maker {
   }
 
   /// Whether the influence grows without bounds as two particles approach each other.
-  bool is_singular(std::vector<Expression> const& results, bool along) const {
+  bool is_singular(std::vector<Expression> results, bool along) {
+    for (auto& result : results) result = graph_.with_common_powers(result);  // as programs calculate them
     auto const strength = [&](double distance) {
       auto inputs = sample(0, {}, {}).here;
       auto const D = static_cast<std::size_t>(dimension_);

@@ -47,19 +47,13 @@ std::string name_of_energy(Conserved const& start, Conserved const& end) {
   return !work && !heat ? "energy" : std::string("energy less ") + (!heat ? "work" : !work ? "heat" : "work and heat");
 }
 
-/// The first particle whose energy is not finite, and why if a scheme knows; "" if none is known.
+/// The first particle whose energy is not finite; "" if it is not known.
 std::string particle_not_finite(Simulation const& simulation, EnergyAndVirial const& measures) {
   auto const all = supervised_by(simulation.schemes());
   for (std::size_t e = 0; e < measures.per_particle.size() && e < all.size(); ++e)
-    for (std::size_t i = 0; i < measures.per_particle[e].size(); ++i) {
-      if (std::isfinite(measures.per_particle[e][i])) continue;
-      std::string why;
-      for (auto const* scheme : simulation.schemes())
-        if (why.empty()) why = scheme->explain(*all[e], i);
-      return why.empty()
-                 ? fmt::format("that of particle {} of '{}' is {}", i, all[e]->name(), measures.per_particle[e][i])
-                 : why;
-    }
+    for (std::size_t i = 0; i < measures.per_particle[e].size(); ++i)
+      if (!std::isfinite(measures.per_particle[e][i]))
+        return fmt::format("that of particle {} of '{}' is {}", i, all[e]->name(), measures.per_particle[e][i]);
   return "";
 }
 
