@@ -1,6 +1,7 @@
 // Wrapping, reflecting and mirroring, where moving walls are, and the refusals of particles that can't be where they
 // are.
 #include <boltzmann/boundaries/box.hpp>
+#include <boltzmann/boundaries/far_from_box.hpp>
 #include <boltzmann/boundaries/flow_images.hpp>
 #include <boltzmann/boundaries/images.hpp>
 #include <boltzmann/core/error.hpp>
@@ -261,6 +262,12 @@ void Box::check(AnyEnsemble const& particles) const {
         throw Error(fmt::format("{} has a field that is not finite: {}", who(particles, i), x[k]));
       }
     for (int a = 0; a < dimension_; ++a)
+      if (far_from_box(*this, x[a], a))
+        throw Error(fmt::format(
+            "{} is too far from the box: {} = {}, more than 2^53 lengths of the periodic axis ({} to {}) away, so that "
+            "rounding hides where in the box that is",
+            who(particles, i), "xyz"[a], x[a], low_[a], high_[a]));
+    for (int a = 0; a < dimension_; ++a)
       if ((walled(a, End::low) && x[a] < low_[a]) || (walled(a, End::high) && x[a] > high_[a]))
         throw Error(fmt::format("{} is outside the box: {} = {}, the {} axis goes from {} to {}", who(particles, i),
                                 "xyz"[a], x[a], to_string(boundary(a)), low_[a], high_[a]));
@@ -339,6 +346,7 @@ class Box::Reflection {
       }
       Turns none{};
       bring_back(i, g, none);
+      if (!(x[f] >= low_[f] - length && x[f] < high_[f] + length)) fail(i, f, x[f], "box", low_[f], high_[f]);
       x[f] += turns * slide;
       x[f] -= length * std::floor((x[f] - low_[f]) / length);
       if (velocity_) x[velocity_->offset + f] += turns * box_.slide_velocity();

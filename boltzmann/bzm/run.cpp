@@ -4,15 +4,31 @@
 #include <boltzmann/core/team.hpp>
 #include <boltzmann/files/checkpoint.hpp>
 #include <boltzmann/files/folder_lock.hpp>
+#include <boltzmann/simulation/conserved.hpp>
 #include <boltzmann/sweep/run_sweep.hpp>
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 
 namespace boltzmann::bzm {
 namespace {
+
+/// Whether energies should be finite now: [minimise] may still have to make influences so. Energies of very many particles
+/// take long, and are looked at when the run begins.
+bool energies_can_be_checked(Simulation const& simulation) {
+  constexpr std::size_t most = 100'000;
+  std::size_t particles = 0;
+  for (auto const* ensemble : simulation.ensembles()) particles += ensemble->size();
+  if (particles > most) return false;
+  return std::all_of(simulation.ensembles().begin(), simulation.ensembles().end(), [](AnyEnsemble* ensemble) {
+    auto const influences = ensemble->influences();
+    return std::all_of(influences.begin(), influences.end(), [](double x) { return std::isfinite(x); });
+  });
+}
 
 void print_heading(ScenarioSimulation const& scenario, std::string const& folder) {
   fmt::print("{} -> {}\n", scenario.title.empty() ? scenario.name : scenario.title, folder);
@@ -130,6 +146,8 @@ int check(std::string const& name, Overrides const& overrides) {
       make_recording(*scenario, std::filesystem::temp_directory_path().string(), {.overwrite = true});
   scenario->simulation->check();
   recording->check();
+  if (energies_can_be_checked(*scenario->simulation))
+    need_finite(*scenario->simulation, conserved(*scenario->simulation));
   print_warnings(*scenario->simulation, {.quiet = true});
   std::size_t particles = 0, bytes = 0;
   for (auto const& scheme : scenario->schemes) bytes += scheme->bytes();  // now that lists and meshes are there

@@ -358,10 +358,11 @@ template <class Real, class Derivative>
 Dual<Real, Derivative> exponential_integral(Dual<Real, Derivative> const& x) {
   return detail::chain(x, Real(exponential_integral(x.value)), Real(-exp(-x.value) / x.value));
 }
-/// At zero it has the slope of its right side.
+/// At zero, where it has no slope, it is given the slope zero, that of both its sides in the mean.
 template <class Real, class Derivative>
 Dual<Real, Derivative> abs(Dual<Real, Derivative> const& x) {
-  return select(x.value < Real(0.0), -x, x);
+  Real const sign = select(x.value < 0.0, Real(-1.0), select(x.value > 0.0, Real(1.0), Real(0.0)));
+  return detail::chain(x, Real(abs(x.value)), sign);
 }
 
 /// x^y. Of the two, those that are plain numbers cost no derivative.

@@ -75,12 +75,12 @@ SmoothEntropy smooth_entropy(Ensembles of, Box const& box, EntropyOptions const&
   int const D = box.dimension();
   double const gamma = options.gamma == 0 ? 1 + 2.0 / D : options.gamma;
   if (!(gamma > 1)) throw Error(fmt::format("an entropy needs a gamma above 1, it is {}", options.gamma));
-  SmoothField const field(of, box, options.smoothing, threads);
-  auto const count = static_cast<double>(field.size());
-  if (field.size() == 0) {
+  if (std::all_of(of.begin(), of.end(), [](auto const* ensemble) { return ensemble->size() == 0; })) {
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
     return {{nan, nan}, {nan, nan}, {nan, nan}};
   }
+  SmoothField const field(of, box, options.smoothing, threads);
+  auto const count = static_cast<double>(field.size());
   auto const per_particle = [&](double heat, double density) {
     return std::log(heat) / (gamma - 1) - std::log(density);
   };

@@ -5,6 +5,7 @@
 #include <boltzmann/files/csv.hpp>
 
 #include <charconv>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <optional>
@@ -57,6 +58,11 @@ std::optional<std::vector<std::string>> next_row(std::string_view text, std::siz
   if (inside) return std::nullopt;
   at = k < text.size() ? k + 1 : k;
   return words;
+}
+
+/// A cell; an empty one for NaN, a number that can't be had.
+void append_cell(std::string& row, double value) {
+  if (!std::isnan(value)) append_number(row, value);
 }
 
 std::optional<double> number(std::string_view word) {
@@ -118,7 +124,7 @@ void CsvFile::write(std::int64_t step, std::span<double const> values) {
   append_number(row, step);
   for (double const value : values) {
     row += ',';
-    append_number(row, value);
+    append_cell(row, value);
   }
   row += '\n';
   append(row);
@@ -136,7 +142,10 @@ void write_csv(std::string const& path, CsvTable const& table) {
   std::size_t const rows = table.columns.empty() ? 0 : table.columns[0].size();
   for (std::size_t r = 0; r < rows; ++r)
     for (std::size_t c = 0; c < table.columns.size(); ++c) {
-      append_number(text, table.columns[c][r]);
+      if (table.columns.size() > 1)
+        append_cell(text, table.columns[c][r]);
+      else
+        append_number(text, table.columns[c][r]);  // an empty line would be no row
       text += c + 1 < table.columns.size() ? ',' : '\n';
     }
   write_whole(path, text);

@@ -15,7 +15,8 @@ constexpr double number_values[numbers] = {1,
                                            0.3125,
                                            0x1.71547652b82fep+0,
                                            0x1.8p48,
-                                           0x1.62e42fefa39efp-1,
+                                           detail::exp_ln2_high,
+                                           detail::exp_ln2_low,
                                            least_exponent,
                                            0x1.fffffffffffecp-2,
                                            0x1.555555547cc9ep-3,
@@ -24,7 +25,7 @@ constexpr double number_values[numbers] = {1,
                                            0x1.6c16df70e5ddfp-10,
                                            0,
                                            0,
-                                           least_square,
+                                           0,
                                            std::bit_cast<double>(~std::uint64_t(0) >> 1),
                                            710,
                                            -746,
@@ -33,8 +34,8 @@ constexpr double number_values[numbers] = {1,
 
 }  // namespace
 
-Registers::Registers(std::size_t most_bytes, int width)
-    : CodeGenerator(most_bytes, Xbyak::DontSetProtectRWE), width_(width) {
+Registers::Registers(std::size_t most_bytes, int width, double least_square)
+    : CodeGenerator(most_bytes, Xbyak::DontSetProtectRWE), width_(width), least_square_(least_square) {
   for (auto& label : number_label_) number_memory_.push_back(ptr[rip + label]);
 }
 
@@ -92,7 +93,8 @@ void Registers::number_packs() {
     bool const is_table = which == Number::roots_low || which == Number::roots_high;
     for (std::size_t lane = 0; lane < 8; ++lane)
       dq(std::bit_cast<std::uint64_t>(is_table ? roots[lane + (which == Number::roots_high ? 8 : 0)]
-                                               : number_values[n]));
+                                      : which == Number::least_square ? least_square_
+                                                                      : number_values[n]));
   }
 }
 

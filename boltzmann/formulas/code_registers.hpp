@@ -76,7 +76,8 @@ enum class Number {
   five_sixteenths,
   log2_e,
   to_sixteenths,
-  ln2,
+  ln2_high,
+  ln2_low,
   least_exponent,
   c0,
   c1,
@@ -107,7 +108,7 @@ inline Source source(Operand operand, int value) { return {value, operand.scalar
 /// possible; one goes to its column when registers are short.
 class Registers : protected Xbyak::CodeGenerator {
  protected:
-  Registers(std::size_t most_bytes, int width);
+  Registers(std::size_t most_bytes, int width, double least_square);
 
   Kept& value(int which) { return flow_->values[static_cast<std::size_t>(which)]; }
   Xmm reg(int number) const { return width_ == 8 ? Xmm(Xbyak::Zmm(number)) : Xmm(Xbyak::Ymm(number)); }
@@ -167,6 +168,7 @@ class Registers : protected Xbyak::CodeGenerator {
   int for_values_ = usual_for_values;
   int to_columns_ = 0;  ///< how often a value that is needed still went to its column
   int width_;
+  double least_square_;  ///< GatheredColumns::least_square
   Flow* flow_ = nullptr;
   Xbyak::RegExp columns_;
   int column_bytes_ = 0;

@@ -194,7 +194,8 @@ void Steps::exponential(Source const& a, int to) {
     vcmppd(k1, given, number(Number::least_exponent), 5);  // not below it
     vmovapd(rest, given);
   }
-  vfnmadd231pd(rest, k, number(Number::ln2));
+  vfnmadd231pd(rest, k, number(Number::ln2_high));
+  vfnmadd231pd(rest, k, number(Number::ln2_low));
   if (width_ == 8) {
     vpermi2pd(root, kept(Number::roots_low, result), number(Number::roots_high));
   } else {

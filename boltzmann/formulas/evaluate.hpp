@@ -3,6 +3,7 @@
 
 #include <boltzmann/core/pack.hpp>
 #include <boltzmann/core/pack_math.hpp>
+#include <boltzmann/formulas/floored_remainder.hpp>
 #include <boltzmann/formulas/machine_code.hpp>
 
 #include <cmath>
@@ -26,11 +27,66 @@ struct Workspace {
   double* place(Operand operand) { return operand.scalar ? scalars + operand.index * W : column(operand.index); }
 };
 
-/// An argument that has been calculated has been rounded.
+/// 2^shift e^x, for a whole shift between -64 and 64. 0 for x below -745.2 (or, with AVX-512, least_exponent).
+template <int W>
+[[gnu::always_inline]] inline Pack<double, W> scaled_exp(Pack<double, W> x, double shift) {
+  using Real = Pack<double, W>;
+#if defined(__AVX512F__)
+  constexpr bool any_power = W == 8;  // times_power_of_two() takes any
+#else
+  constexpr bool any_power = false;
+#endif
+  if constexpr (any_power)
+    x = max(x, Real(least_exponent));
+  else
+    x = max(min(x, Real(711.0)), Real(-746.0));
+  Real const shifted = x * 0x1.71547652b82fep+0 + to_sixteenths;
+  Real const k = shifted - to_sixteenths;
+  Real const rest = (x - k * exp_ln2_high) - k * exp_ln2_low;
+  return exp_of_parts(k + shift, shifted + shift, rest);
+}
+/// As Steps::exponential() of formulas/code_steps.cpp.
 template <int W>
 [[gnu::always_inline]] inline Pack<double, W> exp_in_formulas(Pack<double, W> x) {
-  if constexpr (W == 8) x = max(x, Pack<double, W>(least_exponent));
-  return exp_of_rounded(x);
+  return scaled_exp(x, 0.0);
+}
+
+/// sinh for |x| < 3/2, by its series.
+template <int W>
+[[gnu::always_inline]] inline Pack<double, W> sinh_near(Pack<double, W> x) {
+  auto const z = x * x;
+  return x + x * (z * polynomial(z, 1 / 6.0, 1 / 120.0, 1 / 5040.0, 1 / 362880.0, 1 / 39916800.0, 1 / 6227020800.0,
+                                 1 / 1307674368000.0, 1 / 355687428096000.0, 1 / 121645100408832000.0,
+                                 1 / 51090942171709440000.0));
+}
+template <int W>
+[[gnu::always_inline]] inline Pack<double, W> sinh(Pack<double, W> x) {
+  auto const half = scaled_exp(abs(x), -1.0);  // e^|x| / 2, which is finite as long as sinh is
+  return select(abs(x) < 1.5, sinh_near(x), with_sign_of(half - 0.25 / half, x));
+}
+template <int W>
+[[gnu::always_inline]] inline Pack<double, W> cosh(Pack<double, W> x) {
+  auto const half = scaled_exp(abs(x), -1.0);
+  return half + 0.25 / half;
+}
+
+/// floored_remainder() of each lane; the same bits.
+template <int W>
+[[gnu::always_inline]] inline Pack<double, W> mod(Pack<double, W> a, Pack<double, W> b) {
+  using Real = Pack<double, W>;
+#if defined(__FMA__)
+  Real const quotient = a / b;
+  Real rest;
+  for (int lane = 0; lane < W; ++lane)
+    rest.native[lane] = __builtin_fma(-__builtin_floor(quotient.native[lane]), b.native[lane], a.native[lane]);
+  rest = select(((rest < 0.0) & (b > 0.0)) | ((rest > 0.0) & (b < 0.0)), rest + b, rest) + 0.0;  // no -0
+  auto const exact = (abs(quotient) < 0x1p52) & (abs(b) < __builtin_inf()) & (rest != b);
+  if (!any(!exact)) [[likely]]
+    return rest;
+#endif
+  Real result;
+  for (int lane = 0; lane < W; ++lane) result.native[lane] = floored_remainder(a.native[lane], b.native[lane]);
+  return result;
 }
 
 /// How far the next pack of an operand is.
@@ -113,15 +169,9 @@ template <int W>
     case Operation::erfc:
       return each<W>(work, step, packs, [](Real a, Real, Real) { return erfc(a); });
     case Operation::sinh:
-      return each<W>(work, step, packs, [](Real a, Real, Real) {
-        Real const e = expm1(abs(a)), half = 0.5 * (e + e / (e + 1.0));
-        return select(a < 0.0, -half, half);
-      });
+      return each<W>(work, step, packs, [](Real a, Real, Real) { return detail::sinh(a); });
     case Operation::cosh:
-      return each<W>(work, step, packs, [](Real a, Real, Real) {
-        Real const e = exp(abs(a));
-        return 0.5 * (e + 1.0 / e);
-      });
+      return each<W>(work, step, packs, [](Real a, Real, Real) { return detail::cosh(a); });
     case Operation::abs:
       return each<W>(work, step, packs, [](Real a, Real, Real) { return abs(a); });
     case Operation::pow:
@@ -146,6 +196,8 @@ template <int W>
       return each_lane<W>(work, step, packs, [](double a, double) { return std::atan(a); });
     case Operation::atan2:
       return each_lane<W>(work, step, packs, [](double a, double b) { return std::atan2(a, b); });
+    case Operation::mod:
+      return each<W>(work, step, packs, [](Real a, Real b, Real) { return detail::mod(a, b); });
     case Operation::floor:
       return each_lane<W>(work, step, packs, [](double a, double) { return std::floor(a); });
   }

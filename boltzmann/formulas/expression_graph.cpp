@@ -1,6 +1,7 @@
 // Normal forms: terms merged and sorted, numbers folded; and the rules of differentiation.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/formulas/expression_graph.hpp>
+#include <boltzmann/formulas/floored_remainder.hpp>
 
 #include <fmt/format.h>
 
@@ -59,6 +60,8 @@ double value_of(Operation operation, double a, double b, double c) {
       return std::atan2(a, b);
     case Operation::pow:
       return std::pow(a, b);
+    case Operation::mod:
+      return floored_remainder(a, b);
     case Operation::min:
       return b < a ? b : a;
     case Operation::max:
@@ -304,7 +307,7 @@ Expression ExpressionGraph::slope_of(Expression of) {
     case Operation::erfc:
       return scale(-2 * std::numbers::inv_sqrtpi, apply(Operation::exp, scale(-1, square)));
     case Operation::abs:
-      return apply(Operation::select, apply(Operation::less, a, number(0)), number(-1), number(1));
+      return subtract(apply(Operation::less, number(0), a), apply(Operation::less, a, number(0)));
     default:
       return number(0);  // floor
   }
@@ -322,6 +325,10 @@ Expression ExpressionGraph::derive_operation(Expression of, Expression da, Expre
       Expression const along = multiply(b, multiply(power(a, sum(-1, {{b, 1}})), da));
       return is_number(db, 0) ? along : add(along, multiply(of, multiply(apply(Operation::log, a), db)));
     }
+    case Operation::mod: {
+      Expression const turns = apply(Operation::floor, divide(a, b));
+      return subtract(da, multiply(turns, db));
+    }
     case Operation::min:
       return apply(Operation::select, apply(Operation::less, b, a), db, da);
     case Operation::max:
@@ -335,6 +342,12 @@ Expression ExpressionGraph::derive_operation(Expression of, Expression da, Expre
     default:
       return is_number(da, 0) ? da : multiply(slope_of(of), da);
   }
+}
+
+/// Whether it is never negative but may be 0, as a sum of squares. Inputs of this kind are above zero in programs.
+bool ExpressionGraph::may_vanish(Expression e) const {
+  Node const& node = nodes_[e];
+  return node.never_negative && node.kind != Kind::input && !(node.kind == Kind::sum && node.number > 0);
 }
 
 Expression ExpressionGraph::derive(Expression of, std::uint32_t input,
@@ -360,6 +373,8 @@ Expression ExpressionGraph::derive(Expression of, std::uint32_t input,
         if (is_number(inside, 0)) continue;
         auto factors = node.terms;
         factors[k].factor -= 1;
+        if (node.terms[k].factor == 0.5 && may_vanish(node.terms[k].node))
+          factors[k].node = apply(Operation::max, factors[k].node, number(least_square));
         factors.push_back({inside, 1});
         terms.push_back({product(factors), node.terms[k].factor});
       }
@@ -406,6 +421,32 @@ Expression ExpressionGraph::replace(Expression of, std::unordered_map<std::uint3
   }
   known.emplace(of, result);
   return result;
+}
+
+Expression ExpressionGraph::with_sum(Expression of, std::vector<Term> const& terms, Expression total,
+                                     std::unordered_map<Expression, Expression> others) {
+  for (Expression e = 0; e <= of; ++e) {  // what a sum is made of has smaller numbers
+    Node const node = nodes_[e];
+    if (node.kind != Kind::sum) continue;
+    double factor = 0;
+    std::vector<Term> rest;
+    std::size_t found = 0;
+    for (auto const& term : node.terms) {
+      auto const at = std::find_if(terms.begin(), terms.end(), [&](Term const& t) { return t.node == term.node; });
+      if (at == terms.end()) {
+        rest.push_back(term);
+        continue;
+      }
+      if (found > 0 && term.factor / at->factor != factor) break;
+      factor = term.factor / at->factor;
+      ++found;
+    }
+    if (found != terms.size()) continue;
+    for (auto& term : rest) term.node = replace(term.node, {}, others);
+    rest.push_back({total, factor});
+    others[e] = sum(node.number, rest);
+  }
+  return replace(of, {}, others);
 }
 
 Expression ExpressionGraph::with_common_powers(Expression of) {

@@ -11,6 +11,10 @@
 
 namespace boltzmann {
 
+/// The least square of a distance that programs see. Two particles at one place have this one. A law that is finite there
+/// has a value, and its influence, a number times the separation, is zero.
+inline constexpr double least_square = 1e-280;
+
 /// An expression of a graph.
 using Expression = std::uint32_t;
 
@@ -33,6 +37,7 @@ enum class Operation : std::uint8_t {
   floor,
   atan2,
   pow,
+  mod,  ///< floored_remainder()
   min,
   max,
   less,        ///< comparisons: 1 or 0
@@ -89,10 +94,14 @@ class ExpressionGraph {
   /// a^b; exponents that are multiples of one half become products.
   Expression power(Expression a, Expression b);
 
-  /// By an input. What jumps (floor, comparisons) has the derivative of its pieces, 0.
+  /// By an input. What jumps (floor, comparisons, mod) has the derivative of its pieces. Where a function has a kink its
+  /// slope is 0: abs at 0, and the root of what is never negative (a length) at 0.
   Expression derivative(Expression of, std::uint32_t input);
   /// With other expressions for some inputs.
   Expression replaced(Expression of, std::unordered_map<std::uint32_t, Expression> const& inputs);
+  /// With `total` wherever a sum has all of these terms, times one common factor; and with other expressions for some.
+  Expression with_sum(Expression of, std::vector<Term> const& terms, Expression total,
+                      std::unordered_map<Expression, Expression> others = {});
   /// Sums with the powers that their terms share taken out: fewer multiplications, the same value but for rounding.
   Expression with_common_powers(Expression of);
 
@@ -118,6 +127,7 @@ class ExpressionGraph {
                      std::unordered_map<Expression, Expression>& known);
   Expression share_powers(Expression of, std::unordered_map<Expression, Expression>& known);
   bool never_negative(Node const& node) const;
+  bool may_vanish(Expression e) const;
 
   Form form_;
   std::vector<Node> nodes_;

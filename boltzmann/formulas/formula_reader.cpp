@@ -1,5 +1,6 @@
 // A recursive descent over a formula's text, with dimensions checked on the way.
 #include <boltzmann/core/quantity_text.hpp>
+#include <boltzmann/formulas/formula_functions.hpp>
 #include <boltzmann/formulas/formula_reader.hpp>
 
 #include <fmt/format.h>
@@ -16,16 +17,6 @@ namespace {
 constexpr int max_depth = 64;
 constexpr std::size_t max_length = 20'000;
 
-struct NamedFunction {
-  std::string_view name;
-  int arguments;
-};
-constexpr NamedFunction functions[] = {
-    {"abs", 1},    {"acos", 1},  {"asin", 1}, {"atan", 1}, {"atan2", 2}, {"ceil", 1}, {"cos", 1},
-    {"cosh", 1},   {"cross", 2}, {"dot", 2},  {"erf", 1},  {"erfc", 1},  {"exp", 1},  {"floor", 1},
-    {"if", 3},     {"log", 1},   {"max", 2},  {"min", 2},  {"mod", 2},   {"norm", 1}, {"pow", 2},
-    {"select", 3}, {"sin", 1},   {"sinh", 1}, {"sqrt", 1}, {"step", 1},  {"tan", 1},  {"tanh", 1},
-};
 constexpr std::pair<std::string_view, Operation> pure_functions[] = {
     {"acos", Operation::acos}, {"asin", Operation::asin}, {"atan", Operation::atan}, {"cos", Operation::cos},
     {"cosh", Operation::cosh}, {"erf", Operation::erf},   {"erfc", Operation::erfc}, {"exp", Operation::exp},
@@ -42,13 +33,7 @@ constexpr std::pair<std::string_view, ParticleSum::Kind> sums[] = {{"mean", Part
                                                                    {"sum", ParticleSum::Kind::sum},
                                                                    {"min", ParticleSum::Kind::min},
                                                                    {"max", ParticleSum::Kind::max}};
-constexpr NamedFunction sums_only[] = {{"mean", 1}, {"sum", 1}};
-
-NamedFunction const* function_named(std::string_view name) {
-  auto const* const at = std::find_if(std::begin(functions), std::end(functions),
-                                      [&](NamedFunction const& function) { return function.name == name; });
-  return at == std::end(functions) ? nullptr : at;
-}
+constexpr FormulaFunction sums_only[] = {{"mean", 1, 0, "over particles"}, {"sum", 1, 0, "over particles"}};
 
 class Reader {
  public:
@@ -377,7 +362,7 @@ class Reader {
     std::string const found = word(), wider = names_.with_blanks ? phrase() : found;
     at_ += found.size();
     skip();
-    NamedFunction const* const function = function_of(found);
+    FormulaFunction const* const function = function_of(found);
     if (!at_end() && text_[at_] == '(') {
       if (function) return call(begin, *function);
       auto known = formula_functions();
@@ -391,11 +376,11 @@ class Reader {
     if (function) throw FormulaError(begin, fmt::format("the function '{}' needs parentheses: {}(...)", found, found));
     throw unknown_name(begin, found, wider);
   }
-  NamedFunction const* function_of(std::string_view name) const {
+  FormulaFunction const* function_of(std::string_view name) const {
     if (names_.sums)
       for (auto const& one : sums_only)
         if (one.name == name) return &one;
-    return function_named(name);
+    return formula_function(name);
   }
   FormulaError unknown_name(std::size_t begin, std::string const& found, std::string const& wider) const {
     std::vector<std::string> known, also;
@@ -436,7 +421,7 @@ class Reader {
     bool plain = true;
     Expression operator[](std::size_t k) const { return values[k].components[0]; }
   };
-  Arguments read_arguments(std::size_t begin, NamedFunction const& function) {
+  Arguments read_arguments(std::size_t begin, FormulaFunction const& function) {
     std::size_t const open = at_;
     take("(");
     Arguments all;
@@ -480,7 +465,7 @@ class Reader {
     return value;
   }
 
-  FormulaValue call(std::size_t begin, NamedFunction const& function) {
+  FormulaValue call(std::size_t begin, FormulaFunction const& function) {
     Arguments const of = read_arguments(begin, function);
     std::string_view const name = function.name;
     if (auto const* sum = sum_of(name); names_.sums && sum && of.values.size() == 1)
@@ -507,14 +492,11 @@ class Reader {
       need_pure(of.values[0], of.places[0], fmt::format("{} is taken of pure numbers; this", name));
       double const sign = name == "floor" ? 1 : -1;
       result.components[0] = graph_.scale(sign, graph_.apply(Operation::floor, graph_.scale(sign, of[0])));
-    } else if (name == "mod") {  // a - b floor(a/b)
-      result.dimension = same(of.values[0], of.values[1], of.places[1], "compared");
-      Expression const times = graph_.apply(Operation::floor, graph_.divide(of[0], of[1]));
-      result.components[0] = graph_.subtract(of[0], graph_.multiply(of[1], times));
-    } else {  // min, max, atan2
+    } else {  // min, max, mod, atan2
       result.dimension = same(of.values[0], of.values[1], of.places[1], "compared");
       result.components[0] = graph_.apply(name == "min"   ? Operation::min
                                           : name == "max" ? Operation::max
+                                          : name == "mod" ? Operation::mod
                                                           : Operation::atan2,
                                           of[0], of[1]);
       if (name == "atan2") result.dimension = {};
@@ -649,7 +631,7 @@ FormulaValue& ValuesByName::operator[](std::string const& name) {
 
 std::vector<std::string> formula_functions() {
   std::vector<std::string> names;
-  for (auto const& function : functions) names.emplace_back(function.name);
+  for (auto const& function : formula_function_table()) names.emplace_back(function.name);
   return names;
 }
 

@@ -22,7 +22,8 @@ using namespace code;
 class CodeWriter : public MachineCode, private Steps {
  public:
   CodeWriter(FormulaProgram const& program, int width, std::optional<GatheredColumns> const& gathered)
-      : Steps(32768 + 1024 * (program.steps.size() + program.row_steps.size()), width) {
+      : Steps(32768 + 1024 * (program.steps.size() + program.row_steps.size()), width,
+              gathered ? gathered->least_square : least_square) {
     // Where a list is written several times its labels have to be known. Behind the code numbers are read faster on
     // AVX-512: a seventh of Morse's pass.
     if (width_ == 4) number_packs();

@@ -11,9 +11,10 @@
 
 namespace boltzmann {
 
-/// Pairs at one place have this square of their distance, so that a law without a singularity there has a value, and times
-/// their separation, zero, no influence.
-inline constexpr double least_square = 1e-280;
+namespace detail {
+/// ln 2 in two parts, for exponentials. The first has 36 bits, so that its product with an exponent is exact.
+inline constexpr double exp_ln2_high = 0x1.62e42fefap-1, exp_ln2_low = 0x1.cf79abc9e3b3ap-40;
+}  // namespace detail
 
 /// Exponentials of less than this are those of this: zero.
 inline constexpr double least_exponent = -1e4;
@@ -24,6 +25,7 @@ struct GatheredColumns {
   int dimension = 3;
   std::vector<int> fields;  ///< where they stand in a row, in doubles; sorted
   bool along = true;
+  double least_square = boltzmann::least_square;  ///< 0: the law is not finite where two particles are at one place
 };
 
 /// A program as straight-line code for packs of 4 doubles (AVX2 and FMA) or 8 (AVX-512 F and DQ). It gives the same bits as

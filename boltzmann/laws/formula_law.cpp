@@ -48,7 +48,8 @@ class Maker {
     auto const of_target = add_fields(target_, is_p ? "p." : "q.", false);
     auto const of_source = add_fields(source, is_p ? "q." : "p.", false);
     name_relative_velocity();
-    FormulaValue const value = read();
+    FormulaValue value = read();
+    for (auto& component : value.components) component = by_square(component);
     PairProgram program;
     std::vector<Expression> results;
     Expression energy = 0;
@@ -77,6 +78,7 @@ class Maker {
     program.influence = make_program(graph_, results, columns, rows, gathered);
     program.measure = make_program(graph_, measured, columns, rows, gathered);
     program.velocity_dependent = reads_changing(target_, program.of_p) || reads_changing(source, program.of_q);
+    if (is_singular(results, program.along)) program.least_square = 0;
     program.numbers = std::make_shared<PairNumbers>(
         PairNumbers{Calculation(graph_, measured), of_target, of_source, next_, program.along, program.has_energy});
     return program;
@@ -366,6 +368,38 @@ class Maker {
       throw FormulaPartError("", 0, fmt::format("{} is needed; this is {}", what, dimension_text(value.dimension)));
   }
 
+  /// With the input that is the square of the distance for norm(separation) and dot(separation, separation): an energy of
+  /// these is one of r, and finite where r is.
+  Expression by_square(Expression value) {
+    std::vector<ExpressionGraph::Term> squares;
+    for (std::uint32_t c = 0; c < static_cast<std::uint32_t>(dimension_); ++c)
+      squares.push_back({graph_.product({{graph_.input(c), 2}}), 1});
+    if (dimension_ > 1) return graph_.with_sum(value, squares, square_);
+    Expression const r = graph_.root(square_), step = graph_.input(0);
+    Expression const there = graph_.apply(Operation::abs, step),
+                     back = graph_.apply(Operation::abs, graph_.scale(-1, step));
+    return graph_.with_sum(value, squares, square_, {{squares[0].node, square_}, {there, r}, {back, r}});
+  }
+
+  /// Whether the influence grows without bounds as two particles approach each other.
+  bool is_singular(std::vector<Expression> results, bool along) {
+    for (auto& result : results) result = graph_.with_common_powers(result);  // as programs calculate them
+    auto const strength = [&](double distance) {
+      auto inputs = sample(0, {}, {}).here;
+      auto const D = static_cast<std::size_t>(dimension_);
+      double const scale = distance / std::sqrt(inputs[D]);
+      for (std::size_t c = 0; c < D; ++c) inputs[c] *= scale;
+      inputs[D] = distance * distance;
+      for (std::size_t k = D + 1; k < inputs.size(); ++k) inputs[k] = some_number(static_cast<std::uint32_t>(k), 0);
+      double sum = 0;  // NaN if one of them is
+      for (auto const result : results) sum += std::fabs(graph_.value(result, inputs)) * (along ? distance : 1);
+      return sum;
+    };
+    constexpr double near = 1e-110, nearer = 1e-130;
+    double const there = strength(nearer);
+    return !std::isfinite(there) || there > 10 * strength(near);
+  }
+
   /// On the target: (source - target) 2 dU/ds, and dU/dd where the energy knows directions.
   std::vector<Expression> forces_of(Expression energy, bool& along) {
     std::uint32_t const D = static_cast<std::uint32_t>(dimension_);
@@ -439,11 +473,13 @@ class Maker {
   struct Sample {
     std::vector<double> here, there;
   };
+  /// Between 0.6 and 1.4.
+  static double some_number(std::uint32_t k, int number) {
+    double const x = std::fmod((static_cast<double>(k) + 1) * 0.6180339887498949 + number * 0.7548776662466927, 1.0);
+    return 0.6 + 0.8 * x;
+  }
   Sample sample(int number, std::vector<RowInput> const& of_target, std::vector<RowInput> const& of_source) const {
-    auto const some = [&](std::uint32_t k) {  // between 0.6 and 1.4
-      double const x = std::fmod((static_cast<double>(k) + 1) * 0.6180339887498949 + number * 0.7548776662466927, 1.0);
-      return 0.6 + 0.8 * x;
-    };
+    auto const some = [&](std::uint32_t k) { return some_number(k, number); };
     Sample result;
     result.here.resize(next_);
     result.there.resize(next_);

@@ -20,7 +20,8 @@ struct PairProgram {
   bool has_energy = false;
   bool antisymmetric = false;  ///< known to obey Newton's third law
   bool velocity_dependent = false;
-  std::shared_ptr<PairNumbers const> numbers;  ///< the same law, one pair at a time
+  double least_square = boltzmann::least_square;  ///< 0: it is not finite for two particles at one place
+  std::shared_ptr<PairNumbers const> numbers;     ///< the same law, one pair at a time
 };
 
 /// An influence from outside. Columns are these fields of a particle; the value of a row is the time. There is a result

@@ -34,7 +34,7 @@ struct PendulumCoupling {
   auto operator()(P const& p, P const& q) const {
     auto const arm = p.arm();
     auto const apart = q.pivot + q.arm() - p.pivot - arm;
-    auto const distance = max(magnitude(apart), 1e-300);
+    auto const distance = max(magnitude(apart), 1e-150);
     auto const stretch = distance - rest_length;
     auto const force = apart * (stiffness * stretch / distance);
     return Interaction{cross(arm, force), 0.5 * stiffness * stretch * stretch};

@@ -1,4 +1,5 @@
 // Sorting, images, and following the particles between two builds.
+#include <boltzmann/boundaries/far_from_box.hpp>
 #include <boltzmann/neighbours/sorted_copy.hpp>
 
 #include <boltzmann/core/error.hpp>
@@ -24,7 +25,9 @@ constexpr double nowhere = std::numeric_limits<double>::quiet_NaN();
 
 [[noreturn]] void not_finite(AnyEnsemble const& ensemble, std::size_t particle) {
   throw PhysicsFailure(
-      fmt::format("particle {} of '{}' is at a position that is not finite", particle, ensemble.name()));
+      fmt::format("particle {} of '{}' is at a position that is not finite, or more than 2^53 lengths of a periodic "
+                  "axis from the box",
+                  particle, ensemble.name()));
 }
 
 /// x in steps, modulo 2^32.
@@ -90,7 +93,7 @@ void SortedCopy::build(double reach, int threads) {
     for (std::size_t i = begin; i < end; ++i)
       for (int a = 0; a < dimension; ++a) {
         double const x = ensemble_->row(i)[a];
-        if (!std::isfinite(x)) not_finite(*ensemble_, i);
+        if (!std::isfinite(x) || far_from_box(*box_, x, a)) not_finite(*ensemble_, i);
         references[i * dimension + a] = sheared ? x : reference_of(x, a);
       }
     for (std::size_t i = begin; sheared && i < end; ++i)
@@ -159,7 +162,7 @@ std::unique_ptr<double[]> SortedCopy::references_of(std::span<std::uint32_t cons
       for (int a = 0; a < D; ++a) {
         double const x = row[a];
         bool const inside = x >= edges[a] && x < edges[3 + a];
-        if (!inside && !std::isfinite(x)) not_finite(*ensemble_, i);
+        if (!inside && (!std::isfinite(x) || far_from_box(*box_, x, a))) not_finite(*ensemble_, i);
         *to++ = inside ? x : reference_of(x, a);
       }
     }

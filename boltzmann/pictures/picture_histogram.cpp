@@ -42,7 +42,7 @@ Canvas draw_histogram(Scene& scene) {
     labels.push_back(scene.ensembles.size() > 1 ? scene.ensembles[e]->name() : "");
     colours.push_back(scene.colour(e));
   }
-  if (samples.empty()) throw Error("a histogram of " + what.label + " needs particles; there are none");
+  if (samples.empty()) return scene.too_few("a histogram of " + what.label + " needs particles; there are none");
   auto const bins = histograms(samples, static_cast<std::size_t>(scene.picture.bins.value_or(0)), scene.picture.low,
                                scene.picture.high);
   if (bins.empty()) return scene.too_few("no particle has a " + what.label + " that is a number");

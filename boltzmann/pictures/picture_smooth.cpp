@@ -56,6 +56,8 @@ SmoothColumn smooth_column(Scene& scene, SmoothField const& field, std::string c
 Canvas draw_smooth_field(Scene& scene) {
   std::string const name = scene.picture.y.empty() ? "density" : scene.picture.y;
   auto const of = ensembles_with(scene, name);
+  if (std::all_of(of.begin(), of.end(), [](auto* e) { return e->size() == 0; }))
+    return scene.too_few("a smooth field needs particles, and there are none");
   Smoothing smoothing = scene.picture.smoothing;
   bool const own = std::all_of(of.begin(), of.end(), [](auto* e) { return e->find_field("range") != nullptr; });
   if (smoothing.range == 0 && !own) smoothing.range = fitting_range(of, scene.box());

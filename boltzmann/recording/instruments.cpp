@@ -1,6 +1,7 @@
 // All diagnoses of a look share what has to be found for it: energies, fields of a mesh.
 #include <boltzmann/core/units.hpp>
 #include <boltzmann/recording/instruments.hpp>
+#include <boltzmann/simulation/conserved.hpp>
 #include <boltzmann/simulation/refusals.hpp>
 
 #include <fmt/format.h>
@@ -100,7 +101,10 @@ std::vector<double> Instruments::measure() const {
     mesh = mesh || diagnosis->needs_mesh();
   }
   EnergyAndVirial measures;
-  if (energies) measures = simulation_.measure();
+  if (energies) {
+    measures = simulation_.measure();
+    need_finite(simulation_, measures);
+  }
   auto const ensembles = supervised_by(simulation_.schemes());
   auto const on_nodes = mesh ? mesh_fields_of(simulation_.schemes()) : std::vector<MeshField const*>{};
   Sample seen = sample(ensembles);

@@ -63,7 +63,10 @@ RunReport run_with_progress(Recording& recording, std::uint64_t steps, ProgressO
   Conserved start = conserved(simulation);
   Attending const observer(
       simulation, simulation.observe_when([first = simulation.step()](std::int64_t step) { return step == first; },
-                                          [&start](Simulation const& now) { start = conserved(now); }));
+                                          [&start](Simulation const& now) {
+                                            start = conserved(now);
+                                            need_finite(now, start);
+                                          }));
   double const before = recording.seconds();
   RunReport report;
   try {
@@ -87,6 +90,7 @@ RunReport run_with_progress(Recording& recording, std::uint64_t steps, ProgressO
   if (!report.condition.empty() && recording.ended_step() == simulation.step())
     report.interrupted = report.out_of_time = false;
   Conserved const end = conserved(simulation);
+  need_finite(simulation, end);
   if (!options.quiet) print_summary(recording, report, start, end, recorded);
   auto const tell = [&](std::string const& line) {
     if (options.tell)

@@ -5,6 +5,7 @@
 #include <boltzmann/diagnoses/diagnosis_catalogue.hpp>
 #include <boltzmann/dissipation/dissipation_options.hpp>
 #include <boltzmann/files/text_file.hpp>
+#include <boltzmann/formulas/formula_functions.hpp>
 #include <boltzmann/loaders/lattice.hpp>
 #include <boltzmann/neighbours/neighbour_list.hpp>
 #include <boltzmann/pictures/picture_options.hpp>
@@ -360,6 +361,15 @@ Field const* field_of(ParticleClass const& one, std::string const& name) {
   return nullptr;
 }
 
+void show_formulas(Page& page) {
+  page.print("formulas: numbers, names, + - * / ^ and functions, as in \"0.1 eV*exp(-(r/sigma)^2)\"\n\n  functions\n");
+  for (auto const& function : formula_function_table())
+    page.print("    {:<8} {}{}\n", function.name, function.doc,
+               function.error > 0 ? fmt::format(" (error below {:g} ulp)", function.error) : "");
+  page.print("\n  ulp: units in the last place, the largest error over all doubles\n");
+  for (auto const& rule : formula_rules) page.print("  {}\n", rule);
+}
+
 /// The tables that have a key, and the classes that have it as a field; false if none has it.
 bool show_key(Page& page, std::string const& key) {
   std::vector<std::string> lines, places;
@@ -497,6 +507,7 @@ std::string catalogue_page(std::string const& given) {
   for (auto const& kind : key_words)
     for (auto const& word : kind.words())
       if (word.name == name) next(), page.print("{} {}: {}\n", kind.what, name, word.doc);
+  if (name == "formula" || name == "formulas") next(), show_formulas(page);
   if (given != name) next(), shown = show_unit(page, given) || shown;
   if (shown || show_key(page, name) || show_unit(page, name)) return page.text;
   throw Error("nothing is called '" + name + "'" + near_name(name) + " (bzm list shows all names)");

@@ -47,7 +47,49 @@ std::string name_of_energy(Conserved const& start, Conserved const& end) {
   return !work && !heat ? "energy" : std::string("energy less ") + (!heat ? "work" : !work ? "heat" : "work and heat");
 }
 
+/// The first particle whose energy is not finite; "" if it is not known.
+std::string particle_not_finite(Simulation const& simulation, EnergyAndVirial const& measures) {
+  auto const all = supervised_by(simulation.schemes());
+  for (std::size_t e = 0; e < measures.per_particle.size() && e < all.size(); ++e)
+    for (std::size_t i = 0; i < measures.per_particle[e].size(); ++i)
+      if (!std::isfinite(measures.per_particle[e][i]))
+        return fmt::format("that of particle {} of '{}' is {}", i, all[e]->name(), measures.per_particle[e][i]);
+  return "";
+}
+
+[[noreturn]] void not_finite(std::string const& energy, double value, std::string const& particle,
+                             std::string const& cure) {
+  throw PhysicsFailure(fmt::format("the {} energy is not finite ({}){}{}", energy, value,
+                                   particle.empty() ? "" : ": " + particle, cure));
+}
+
 }  // namespace
+
+void need_finite(Simulation const& simulation, EnergyAndVirial const& measures) {
+  if (!measures.unknown.empty()) return;
+  if (!std::isfinite(measures.potential))
+    not_finite("potential", measures.potential, particle_not_finite(simulation, measures),
+               "; a law must be finite at every distance up to its cut-off, where its energy is taken as zero");
+  if (!std::isfinite(measures.external))
+    not_finite("external", measures.external, "", "; a particle is where a law from outside has none");
+  if (!std::isfinite(measures.internal)) not_finite("internal", measures.internal, "", "");
+}
+
+void need_finite(Simulation const& simulation, Conserved const& total) {
+  if (std::isfinite(total.energy_scale)) return;
+  need_finite(simulation, simulation.measure());
+  for (auto const* ensemble : simulation.ensembles()) {
+    if (!carries_momentum(*ensemble)) continue;
+    int const mass = ensemble->field("mass").offset, velocity = ensemble->field("velocity").offset;
+    for (std::size_t i = 0; i < ensemble->size(); ++i) {
+      double const* row = ensemble->row(i);
+      double square = 0;
+      for (int a = 0; a < ensemble->dimension(); ++a) square += row[velocity + a] * row[velocity + a];
+      if (double const kinetic = 0.5 * row[mass] * square; !std::isfinite(kinetic))
+        not_finite("kinetic", kinetic, fmt::format("that of particle {} of '{}'", i, ensemble->name()), "");
+    }
+  }
+}
 
 Conserved conserved(Simulation const& simulation) {
   Conserved total;

@@ -31,6 +31,11 @@ struct Conserved {
 /// Of the present state. Calculates the energies of all schemes once.
 Conserved conserved(Simulation const& simulation);
 
+/// PhysicsFailure, naming a particle where it is known, unless these energies are finite: those of measure(), or those
+/// that conserved() has found.
+void need_finite(Simulation const& simulation, EnergyAndVirial const& measures);
+void need_finite(Simulation const& simulation, Conserved const& total);
+
 /// A line of warning if the energy should be conserved and has changed by more than a tenth of what there was of
 /// kinetic, potential and internal energies; one if momentum should be and has changed by more than a hundredth of the
 /// sum of |m v|.

@@ -545,6 +545,14 @@ TEST(Box, ChecksWhereParticlesAre) {
   e[1].position = {1, 1};  // on a face of the region is outside of it
   e[2].position = {0, 7};  // periodic: somewhere
   EXPECT_NO_THROW(box.check(e));
+  e[2].position = {0, -1.8e16};  // 9e15 lengths away, about 2^53
+  EXPECT_NO_THROW(box.check(e));
+  for (double const far : {1e300, -1e300, 1.9e16}) {
+    e[2].position = {0, far};
+    expect_parts(message<Error>([&] { box.check(e); }),
+                 {"particle 2 of 'ions' is too far from the box: y = ", "2^53 lengths", "(0 to 2)"});
+  }
+  e[2].position = {0, 7};
   e[1].position = {above(4), 0};
   expect_parts(message<Error>([&] { box.check(e); }), {"particle 1 of 'ions' is outside the box: x = ", "from 0 to 4"});
   e[1].position = {1.5, 1};

@@ -144,6 +144,8 @@ TEST(Dual, WhereAFunctionHasNoSlopeItStaysANumber) {
   EXPECT_EQ(distance.value, 0);
   EXPECT_EQ(distance.derivative.slope, 0);
   auto const zero = line(0)[0];
+  EXPECT_EQ(abs(zero).derivative.rest[0], 0);
+  EXPECT_EQ(abs(line(-2)[0]).derivative.rest[0], -1);
   EXPECT_EQ(pow(zero, 2.0).derivative.rest[0], 0);
   EXPECT_EQ(pow(zero, 1.0).derivative.rest[0], 1);
   EXPECT_EQ(pow(zero, 0.0).derivative.rest[0], 0);

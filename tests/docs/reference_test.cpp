@@ -4,6 +4,7 @@
 #include <boltzmann/diagnoses/diagnosis_catalogue.hpp>
 #include <boltzmann/dissipation/dissipation_options.hpp>
 #include <boltzmann/files/text_file.hpp>
+#include <boltzmann/formulas/formula_functions.hpp>
 #include <boltzmann/pictures/picture_options.hpp>
 #include <boltzmann/scenario/classes.hpp>
 #include <boltzmann/scenario/laws.hpp>
@@ -11,6 +12,7 @@
 #include <boltzmann/scenario/materials.hpp>
 #include <boltzmann/scenario/tables.hpp>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -156,6 +158,18 @@ std::string dissipations() {
   return kinds_and_options("| kind | what it is | keys |", kinds);
 }
 
+/// The functions of formulas, and what holds for all formulas.
+std::string formula_functions_and_rules() {
+  std::string text = "| function | what it is | error below (ulp) |\n|---|---|---|\n";
+  for (auto const& function : formula_function_table())
+    text += fmt::format("| `{}` | {} | {} |\n", function.name, function.doc,
+                        function.error > 0    ? fmt::format("{:g}", function.error)
+                        : function.error == 0 ? "exact"
+                                              : "sum of products");
+  for (auto const& rule : formula_rules) text += fmt::format("\n{}\n", rule);
+  return text;
+}
+
 /// The classes with their fields.
 std::string classes() {
   std::string text = "| class | space | fields besides the position | |\n|---|---|---|---|\n";
@@ -181,6 +195,7 @@ TEST(Reference, TablesOfTheGuideAreThoseOfTheOptions) {
                             {"scenarios.md", "loaders", loaders()},
                             {"scenarios.md", "classes", classes()},
                             {"scenarios.md", "materials", materials()},
+                            {"scenarios.md", "formula functions", formula_functions_and_rules()},
                             {"scenarios.md", "fluxes", keys_of(options_of(flux_parameters()), nullptr)},
                             {"scenarios.md", "elastic", keys_of(options_of(elastic_parameters()), nullptr)}};
   for (auto const& table : scenario_tables())

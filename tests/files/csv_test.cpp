@@ -64,10 +64,11 @@ TEST(Csv, DoublesComeBackWithTheSameBits) {
     EXPECT_EQ(std::bit_cast<std::uint64_t>(table.columns[1][k]), std::bit_cast<std::uint64_t>(written[k]));
 }
 
-TEST(Csv, NanIsReadAsNan) {
+TEST(Csv, NanIsAnEmptyCellAndReadAsNan) {
   TemporaryFolder const folder;
   CsvFile(folder / "a.csv", {"step", "x", "y"}).write(0, row(std::nan(""), -std::nan("")));
   auto const table = read_csv(folder / "a.csv");
+  EXPECT_EQ(read_text(folder / "a.csv"), "step,x,y\n0,,\n");
   EXPECT_TRUE(std::isnan(table.columns[1][0]) && std::isnan(table.columns[2][0]));
 }
 

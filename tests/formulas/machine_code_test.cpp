@@ -103,8 +103,9 @@ TEST(MachineCode, GivesTheBitsOfTheInterpreter) {
 
 TEST(MachineCode, GivesTheBitsOfTheInterpreterForEveryInstruction) {
   double const inf = std::numeric_limits<double>::infinity(), nan = std::numeric_limits<double>::quiet_NaN();
-  std::vector<double> numbers{0.0,   -0.0,   1.0,    -1.0, inf, -inf,   nan,   5e-324, -5e-324,
-                              1e300, -1e300, 1e-310, 0.5,  2.5, 1e-160, 1e160, -2.5,   std::nextafter(2.0, 3.0)};
+  std::vector<double> numbers{0.0,   -0.0,   1.0,    -1.0, inf,  -inf,   nan,   5e-324, -5e-324,
+                              1e300, -1e300, 1e-310, 0.5,  2.5,  1e-160, 1e160, -2.5,   std::nextafter(2.0, 3.0),
+                              700,   -700,   709.9,  745,  -745, -800,   800};
   for (auto const* text : {"x + y",
                            "x - y",
                            "2 - x",
@@ -121,6 +122,10 @@ TEST(MachineCode, GivesTheBitsOfTheInterpreterForEveryInstruction) {
                            "x^-6",
                            "abs(x)",
                            "floor(x)",
+                           "exp(x)",
+                           "sinh(x) + cosh(y)",
+                           "mod(x, y)",
+                           "mod(u, x)",
                            "min(x, y)",
                            "max(x, y)",
                            "x < y",

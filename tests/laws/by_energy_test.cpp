@@ -210,8 +210,16 @@ TEST(ByEnergy, TwoParticlesAtOnePlace) {
   expect_no_force(by_energy(spring_energy), 0.5 * depth * r0 * r0);
   expect_no_force(by_energy(morse_energy), Morse{depth, r0, a}(p, p).energy);
   expect_no_force(by_energy([](auto const& p, auto const& q) { return exp(-norm2(q.position - p.position)); }), 1);
-  // A pole stays one.
+  expect_no_force(by_energy([](auto const& p, auto const& q) {
+                    auto const r = q.position - p.position;
+                    return 2.0 + abs(r[0]) + magnitude(r) + pow(magnitude(r), 1.5);
+                  }),
+                  2);
+  // A pole stays one, and a force that grows without bounds is no number.
   EXPECT_FALSE(std::isfinite(by_energy(lennard_jones_energy)(p, p).energy));
+  auto const logarithm =
+      by_energy([](auto const& p, auto const& q) { return log(magnitude(q.position - p.position)); });
+  EXPECT_TRUE(std::isnan(logarithm(p, p).force[0]));
 }
 
 /// The drift of the energy of a gas with this law, relative to its kinetic energy.

@@ -228,5 +228,38 @@ TEST(FormulaLaw, GoesBackToTheBit) {
   EXPECT_NEAR(simulation.measure().potential, before, 1e-13 * std::abs(before));
 }
 
+/// A distance that is written as norm(separation) is r, also in 1D, so that a law has a value where it is 0. A law whose
+/// influence grows without bounds there must not have one.
+TEST(TypedLaws, AreKnownToBeFiniteAtOnePlaceOrNot) {
+  struct Text {
+    std::string energy;
+    bool finite, along;
+  };
+  Ensemble<Newton<1>> line("line", 2);
+  Ensemble<Newton<3>> space("space", 2);
+  for (auto const& [energy, finite, along] :
+       {Text{"(r - 1)^2", true, true},
+        {"(norm(separation) - 1)^2", true, true},
+        {"(sqrt(dot(separation, separation)) - 1)^2 + 3*dot(separation, separation)", true, true},
+        {"norm(separation)^3 - 2*norm(separation)", true, true},
+        {"exp(-r^2)", true, true},
+        {"p.mass*q.mass/sqrt(r^2 + 0.01)", true, true},
+        {"dot(p.velocity - q.velocity, separation)^2/r^2", false, false},
+        {"log(r)", false, true},
+        {"log(norm(separation))", false, true},
+        {"sqrt(r)", false, true},
+        {"p.mass*q.mass/r", false, true},
+        {"r^-12 - r^-6", false, true}}) {
+    auto const law = FormulaLaw::energy(energy);
+    for (PairProgram const& program : {law.between(line, line), law.between(space, space)}) {
+      EXPECT_EQ(program.least_square > 0, finite) << energy;
+      EXPECT_TRUE(program.along || !along) << energy;
+    }
+  }
+  EXPECT_EQ(FormulaLaw::influence("1/r").between(space, space).least_square, 0);
+  EXPECT_GT(FormulaLaw::influence("separation/norm(separation)").between(space, space).least_square, 0);
+  EXPECT_GT(FormulaLaw::influence("1 - r").between(space, space).least_square, 0);
+}
+
 }  // namespace
 }  // namespace boltzmann

@@ -301,8 +301,8 @@ TEST(HistogramPictures, OfAMillionNormalNumbersAreTheGaussian) {
 
 TEST(HistogramPictures, BinsScalesAndRefusals) {
   Atoms<2> plane;
-  EXPECT_EQ(message([&] { plane.drawn({.drawing = "histogram"}); }),
-            "a histogram of speed needs particles; there are none");
+  EXPECT_EQ(plane.drawn({.drawing = "histogram"}).notes(),
+            std::vector<std::string>{"a histogram of speed needs particles; there are none"});
   std::mt19937_64 random(test_seed(3));
   std::uniform_real_distribution<double> place(0, 10);
   for (int i = 0; i < 800; ++i) plane.add({place(random), 1}, {1, 0});

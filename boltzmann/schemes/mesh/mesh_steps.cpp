@@ -1,4 +1,5 @@
 // Whole steps on a mesh: columns sorted in space, slots of the field, and the loop around the kernels.
+#include <boltzmann/boundaries/far_from_box.hpp>
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/kernel_dispatch.hpp>
 #include <boltzmann/schemes/mesh/mesh_steps.hpp>
@@ -195,7 +196,8 @@ class MeshSteps final : public FusedSteps {
           double const at = box.periodic(a) ? box.wrapped(row[a], a) : row[a];
           double const x = std::nearbyint((at - box.low(a)) / part_[a]);
           double const v = row[columns.kind.velocity + a];
-          bool const inside = x >= 0 && x <= static_cast<double>(end_[a]) && std::isfinite(v);
+          bool const inside =
+              x >= 0 && x <= static_cast<double>(end_[a]) && std::isfinite(v) && !far_from_box(box, row[a], a);
           if (!inside)  // the first one, whoever comes first
             for (auto first = outside.load(); number < first && !outside.compare_exchange_weak(first, number);) {
             }

@@ -231,7 +231,25 @@ EnergyAndVirial MoleculeScheme::measure(double) {
   return measures;
 }
 
+/// Neighbours in a tuple that are at one place give it no angle, whichever of its members is asked about.
 std::string MoleculeScheme::explain(AnyEnsemble const& ensemble, std::size_t i) const {
+  for (auto const& group : groups_) {
+    if (group->ensemble != &ensemble) continue;
+    auto const& members = group->members;
+    for (std::size_t first = 0; first < members.size(); first += group->each) {
+      auto const begin = members.begin() + static_cast<std::ptrdiff_t>(first),
+                 end = begin + static_cast<std::ptrdiff_t>(group->each);
+      if (std::find(begin, end, i) == end) continue;
+      for (auto at = begin; at + 1 != end; ++at) {
+        double d[3] = {0, 0, 0};
+        for (int a = 0; a < ensemble.dimension(); ++a) d[a] = ensemble.row(at[1])[a] - ensemble.row(at[0])[a];
+        box().nearest_image(d);
+        if (d[0] == 0 && d[1] == 0 && d[2] == 0)
+          return fmt::format("{} {} of '{}' is not defined: its particles {} and {} are at the same place",
+                             name_of_tuple(group->each), first / group->each, ensemble.name(), at[0], at[1]);
+      }
+    }
+  }
   return at_one_place(ensemble, i);
 }
 

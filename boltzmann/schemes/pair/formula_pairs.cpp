@@ -20,8 +20,8 @@ FormulaKernelTable const& kernels() {
 /// Machine code, where the kernels in use go together with some.
 std::shared_ptr<PairProgram const> ready(PairProgram program, int dimension) {
   int const width = kernels().code_width;
-  program.influence.code =
-      machine_code(program.influence, width, GatheredColumns{dimension, program.of_q, program.along});
+  program.influence.code = machine_code(program.influence, width,
+                                        GatheredColumns{dimension, program.of_q, program.along, program.least_square});
   program.measure.code = machine_code(program.measure, width);
   return std::make_shared<PairProgram const>(std::move(program));
 }

@@ -89,12 +89,14 @@ class ColumnSum {
       for (std::size_t k = 0; k < packs; ++k)
         energy_ += select(load_pack<W>(square + k * W) < cutoff2, load_pack<W>(energy + k * step), zero);
       if (!(zero_at > 0)) return;
-      // The energy at the cut-off, in the same direction, is no part of it.
+      // Less the energy at the cut-off in the same direction; along x where two particles are at one place.
       for (std::size_t k = 0; k < packs; ++k) {
         Real const s = load_pack<W>(square + k * W), stretched = zero_at * rsqrt(s);
         auto const valid = s < cutoff2;
+        auto const apart = s > least_square;
         for (std::size_t c = 0; c < D; ++c)
-          store_pack<W>(work.column(c) + k * W, load_pack<W>(d[c] + k * W) * stretched);
+          store_pack<W>(work.column(c) + k * W,
+                        select(apart, load_pack<W>(d[c] + k * W) * stretched, Real(c == 0 ? zero_at : 0.0)));
         store_pack<W>(square + k * W,
                       select(valid, Real(zero_at * zero_at), Real(std::numeric_limits<double>::quiet_NaN())));
       }
@@ -159,8 +161,9 @@ enum class Lead { nothing, reciprocal, root, reciprocal_and_root, any };
 /// the leading steps make of that.
 template <Lead kind, int W, int D>
 void gather_separations(double const* rows, std::uint32_t const* entries, std::size_t packs, double const* p,
-                        Step const* steps, std::size_t leading, Workspace<W>& work) {
+                        Step const* steps, std::size_t leading, double least, Workspace<W>& work) {
   using Real = Pack<double, W>;
+  Real const least_of_all = least;
   double *const columns = work.columns, *const squares = work.column(D);
   double* const first = work.column(leading > 0 ? steps[0].to.index : D);
   double* const second = work.column(leading > 1 ? steps[1].to.index : D);
@@ -173,7 +176,7 @@ void gather_separations(double const* rows, std::uint32_t const* entries, std::s
       store_pack<W>(columns + c * block_pairs + k, d);
       square = square + d * d;
     }
-    square = max(square, Real(least_square));
+    square = max(square, least_of_all);
     store_pack<W>(squares + k, square);
     if constexpr (kind == Lead::any)
       for (std::size_t n = 0; n < leading; ++n)
@@ -302,7 +305,7 @@ void formula_over_list(void const* the_law, PairTask const& task, std::size_t be
       std::uint32_t const* const j = task.row[i] + from;
       std::size_t const left = task.length[i] - from, count = left < block_pairs ? left : block_pairs;
       std::size_t const packs = (count + W - 1) / W;  // entries behind the last one point to no particle
-      gather(task.source, j, packs, p, steps, leading, work);
+      gather(task.source, j, packs, p, steps, leading, law.least_square, work);
       fields_of_q(task.source, blocks, j, packs);
       sum.add(law, work, packs, task.cutoff2, task.rounding, task.zero_at, of_fields + leading);
     }
@@ -339,7 +342,7 @@ void formula_over_all(void const* the_law, PairTask const& task, std::size_t beg
           store_pack<W>(work.column(c) + k * W, d);
           square = square + d * d;
         }
-        store_pack<W>(work.column(D) + k * W, max(square, Real(least_square)));
+        store_pack<W>(work.column(D) + k * W, max(square, Real(law.least_square)));
       }
       if (task.same && i >= from && i < from + count) work.column(D)[i - from] = nan;
       ColumnSum<pass, W, D> sum;
@@ -379,7 +382,7 @@ void formula_over_connections(void const* the_law, PairTask const& task, std::si
           work.column(c)[k] = d;
           square += d * d;
         }
-        work.column(D)[k] = k < count ? (square < least_square ? least_square : square) : nan;
+        work.column(D)[k] = k < count ? (square < law.least_square ? law.least_square : square) : nan;
         for (std::size_t f = 0; f < law.of_q.size(); ++f) {
           int const a = task.sheared && task.velocity >= 0 ? law.of_q[f] - task.velocity : -1;
           work.column(D + 1 + f)[k] = q[law.of_q[f]] + (a >= 0 && a < D ? above * task.faster[a] : 0);

@@ -101,8 +101,7 @@ class Sum {
         Real energy = result.energy;
         if (zero_at > 0) {
           Source at_cutoff = q;
-          auto const r = q.position - p.position;
-          at_cutoff.position = p.position + r * (zero_at * rsqrt(dot(r, r)));
+          at_cutoff.position = p.position + at_distance(zero_at, q.position - p.position);
           energy = energy - law(p, at_cutoff).energy;
         }
         energy_ += select(valid, energy, zero);
@@ -130,6 +129,14 @@ class Sum {
   }
 
  private:
+  /// A vector of this length along r; along x where two particles are at one place.
+  [[gnu::always_inline]] static Vector<D, Real> at_distance(double length, Vector<D, Real> const& r) {
+    Real const square = dot(r, r);
+    Vector<D, Real> stretched = r * (length * rsqrt(square));
+    for (int a = 0; a < D; ++a) stretched[a] = select(square > 0.0, stretched[a], Real(a == 0 ? length : 0.0));
+    return stretched;
+  }
+
   Real influence_[components];
   Real energy_ = Real(0.0);
   Real virial_[D * D];
