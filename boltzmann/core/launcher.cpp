@@ -19,11 +19,14 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <condition_variable>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
+#include <mutex>
 #include <string>
+#include <thread>
 #include <vector>
 
 namespace boltzmann {
@@ -36,6 +39,7 @@ constexpr char const* marker = "BOLTZMANN_ALONE";
 
 thread_local Team* acting = nullptr;
 std::atomic<Team*> joined{nullptr};
+std::string start_words;
 int real_errors = STDERR_FILENO;  // of a silent rank, where its last words go
 
 std::string environment(char const* name) {
@@ -111,6 +115,56 @@ void leave_at_exit(int status, void*) {
   throw Error(line);
 }
 
+/// Ends this process with a line if `call` takes too long. What a library waits for cannot be interrupted otherwise.
+template <class Call>
+void within(double seconds, std::string const& line, Call const& call) {
+  std::mutex mutex;
+  std::condition_variable changed;
+  bool done = false;
+  std::thread watch([&] {
+    std::unique_lock lock(mutex);
+    if (changed.wait_for(lock, clock_time(std::min(seconds, 1e9)), [&] { return done; })) return;
+    tell_last_words(line);
+    _exit(1);
+  });
+  call();
+  {
+    std::scoped_lock const lock(mutex);
+    done = true;
+  }
+  changed.notify_all();
+  watch.join();
+}
+
+struct Place {
+  int error = 0, rank = 0, size = 1;
+};
+
+/// Becomes a rank.
+Place join_launched(BoltzmannTeamFunctions const& functions, Launched const& told) {
+  double const seconds = patience();
+  Place place;
+  within(
+      seconds,
+      fmt::format("rank {} has waited {:.3g} s for the other processes of this launch to join; every process must be "
+                  "the same program (BOLTZMANN_PATIENCE sets how many seconds a rank waits)",
+                  told.rank, seconds),
+      [&] { place.error = functions.join(nullptr, &place.rank, &place.size); });
+  return place;
+}
+
+/// What is wrong if not all ranks were started alike; empty if they were. For all ranks.
+std::string different_start(Team& team) {
+  auto const all = team.gather(start_words);
+  for (std::size_t r = 1; r < all.size(); ++r)
+    if (all[r] != all[0])
+      return fmt::format(
+          "rank {} was started with '{}', rank 0 with '{}'; all ranks need the same command (only --threads may "
+          "differ)",
+          r, all[r], all[0]);
+  return "";
+}
+
 /// Ranks of one machine don't need MPI for what they tell each other.
 void speak_by_memory(Team& team, BoltzmannTeamFunctions const& launched) {
   std::string const said = environment("BOLTZMANN_MESSAGES");
@@ -143,6 +197,7 @@ Team* join() {
   if (Team* const team = joined) return team;
   Launched const told = launched();
   if (told.size == 1) return new Team;
+  LocalRanks::report();
   std::string const several = told.size > 1 ? fmt::format("{} processes", told.size) : "processes";
   Opened const opened = open_plugin();
   if (opened.plugin.path.empty())
@@ -151,21 +206,23 @@ Team* join() {
                        "run; {}",
                        several, how_to_make_mpi_plugin()));
   if (!opened.functions) refuse(told, fmt::format("'{}' can't be used: {}", opened.plugin.path, opened.plugin.reason));
-  double const seconds = patience();
-  int rank = 0, size = 1;
-  if (int const error = opened.functions->join(nullptr, &rank, &size))
-    refuse(told, fmt::format("MPI can't begin (its error {})", error));
+  auto const [error, rank, size] = join_launched(*opened.functions, told);
+  if (error != 0) refuse(told, fmt::format("MPI can't begin (its error {})", error));
   if (told.size > 1 && size != told.size)
     refuse(told,
            fmt::format("a launcher has started {} of this, but MPI knows of {}: '{}' was compiled with another MPI "
                        "({}) than that of the launcher",
                        several, size, opened.plugin.path, opened.plugin.library));
   auto* const team = new Team(*opened.functions, nullptr, rank, size);  // for ever: what leaves it runs last of all
+  team->patience(patience());
+  if (std::string const line = different_start(*team); !line.empty()) {
+    opened.functions->leave(nullptr);
+    refuse(told, line);
+  }
   joined = team;
   stay_alone();  // what it starts
   on_exit(leave_at_exit, nullptr);
   if (rank > 0) silence();
-  team->patience(seconds);
   speak_by_memory(*team, *opened.functions);
   settle(*team);
   return team;
@@ -204,6 +261,31 @@ Launched launched() {
       return {std::atoi(environment(rank).c_str()), std::max(1, std::atoi(environment(size).c_str()))};
   if (auto const rank = environment("PMIX_RANK"); !rank.empty()) return {std::atoi(rank.c_str()), 0};
   return {};
+}
+
+void started_with(int argc, char const* const* argv) {
+  start_words = argc > 0 ? fs::path(argv[0]).filename().string() : "";
+  for (int k = 1; k < argc; ++k) {
+    std::string const word = argv[k];
+    if (word == "--threads")
+      ++k;
+    else if (!word.starts_with("--threads="))
+      start_words += " " + word;
+  }
+}
+
+void compare_start_of_ranks() {
+  Launched const told = launched();
+  if (told.size == 1) return;
+  Opened const opened = open_plugin();
+  if (!opened.functions) return;
+  auto const [error, rank, size] = join_launched(*opened.functions, told);
+  if (error != 0) return;
+  Team team(*opened.functions, nullptr, rank, size);
+  team.patience(patience());
+  std::string const line = different_start(team);
+  opened.functions->leave(nullptr);
+  if (!line.empty()) refuse(told, line);
 }
 
 void stay_alone() { setenv(marker, "1", 1); }
