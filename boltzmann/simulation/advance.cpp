@@ -36,6 +36,12 @@ Division::Carried influences_on(AnyEnsemble& ensemble) {
   return all;
 }
 
+/// When a step ends: exactly when the next one begins. Influences that are calculated there hold for the next step, and a
+/// run that goes on from there calculates them again at the time of its first step.
+double end_of_step(double base_time, std::int64_t steps_before, double step_size, double dt) {
+  return base_time + static_cast<double>(steps_before + ((dt > 0) == (step_size > 0) ? 1 : -1)) * step_size;
+}
+
 }  // namespace
 
 void Simulation::move_walls(double time) {
@@ -93,8 +99,9 @@ void Simulation::advance(double dt, std::vector<Dissipation*> const& dissipation
     advance_in_substeps(dt);
   else
     advance(time(), dt);
-  StepContext const context{dt, static_cast<std::uint64_t>(step_), seed_, time() + dt};
-  if (!dissipations.empty()) calculate(time() + dt, step_ + (dt > 0 ? 1 : -1));
+  double const end = end_of_step(base_time_, step_ - base_step_, step_size_, dt);
+  StepContext const context{dt, static_cast<std::uint64_t>(step_), seed_, end};
+  if (!dissipations.empty()) calculate(end, step_ + (dt > 0 ? 1 : -1));
   for (auto* dissipation : dissipations) {
     dissipation->advance(context);
     if (division_) division_->moved();
@@ -118,8 +125,14 @@ void Simulation::advance(double dt, std::vector<Dissipation*> const& dissipation
 void Simulation::advance(double start, double dt) {
   StepContext const context{dt, static_cast<std::uint64_t>(step_), seed_};
   double passed = 0;
+  // Of a substep that is not the last one the end is elsewhere.
+  double const whole_end = end_of_step(base_time_, step_ - base_step_, step_size_, dt), own_end = start + dt;
+  double const rounding = 4 * std::numeric_limits<double>::epsilon() * (std::abs(start) + std::abs(whole_end));
+  auto const moment = [&](double part) {
+    return part != 1 ? start + part * dt : std::abs(own_end - whole_end) <= rounding ? whole_end : own_end;
+  };
   for (int stage = 0; stage < stages_; ++stage) {
-    calculate(start + passed * dt, passed == 1 ? step_ + (dt > 0 ? 1 : -1) : step_);
+    calculate(moment(passed), passed == 1 ? step_ + (dt > 0 ? 1 : -1) : step_);
     for (auto& part : parts_) {
       if (stage >= part.stages) continue;
       Motion const motion = part.integrator->advance(stage, context);
@@ -128,7 +141,7 @@ void Simulation::advance(double start, double dt) {
       influences_.outdated();
       passed = part.time_after[stage];
       if (motion != Motion::final) continue;
-      move_walls(start + passed * dt);
+      move_walls(moment(passed));
       keep_in_box(part);
     }
     // What integrators hold from here on goes with particles that change hands; before, it may be of other numbers.
@@ -161,7 +174,8 @@ StretchedSystem Simulation::stretched_system() {
 
 /// After a step that is done but not counted yet.
 void Simulation::stretch_box(double dt) {
-  StepContext const context{dt, static_cast<std::uint64_t>(step_), seed_, time() + dt};
+  double const end = end_of_step(base_time_, step_ - base_step_, step_size_, dt);
+  StepContext const context{dt, static_cast<std::uint64_t>(step_), seed_, end};
   for (auto const& barostat : barostats_) {
     if ((step_ + 1) % barostat->every() != 0) continue;
     if (is_divided()) gather_particles();  // all ranks stretch all
@@ -187,7 +201,7 @@ void Simulation::advance_by_gauss_radau(double dt) {
     double const rest = dt - passed, size = gauss_radau_.step(rest, schemes_.front()->threads(), influences);
     passed = size == rest ? dt : passed + size;
     influences_.outdated();
-    move_walls(start + passed);
+    move_walls(passed == dt ? end_of_step(base_time_, step_ - base_step_, step_size_, dt) : start + passed);
     for (auto& part : parts_) keep_in_box(part);
   }
 }
@@ -197,9 +211,8 @@ void Simulation::advance_by_gauss_radau(double dt) {
 void Simulation::advance_in_substeps(double dt) {
   constexpr std::uint64_t whole = std::uint64_t{1} << 40;
   double const start = time(), unit = dt / static_cast<double>(whole);
-  auto const moment = [&](std::uint64_t at) {
-    return at == whole ? start + dt : start + static_cast<double>(at) * unit;
-  };
+  double const end = end_of_step(base_time_, step_ - base_step_, step_size_, dt);
+  auto const moment = [&](std::uint64_t at) { return at == whole ? end : start + static_cast<double>(at) * unit; };
   auto const longer = [&](std::uint64_t size, double allowed) {
     return std::abs(static_cast<double>(size) * unit) > allowed;
   };

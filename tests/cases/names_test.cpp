@@ -34,8 +34,10 @@ void expect_refused(std::string const& text, std::string const& wrong, std::stri
 }
 
 TEST(Names, ThatFilesCannotHaveAreRefusedByCheckWithTheirLine) {
-  for (std::string const name : {"a/b", "/", ".", "..", "a\\tb", "a\\nb", "a\\u0007", "a\\u007f"})
-    expect_refused(head + ensemble(name), "name = ", "an ensemble can't be called '");
+  for (std::string const name : {"a/b", "/", ".", ".."})
+    expect_refused(head + ensemble(name), "name = ", "an ensemble can't be called '" + name + "' in files");
+  for (std::string const name : {"a\\tb", "a\\nb", "a\\u0007", "a\\u007f"})
+    expect_refused(head + ensemble(name), "name = ", "control character");
   expect_refused(head + ensemble(std::string(101, 'n')), "name = ", "an ensemble can't be called '");
   for (std::string const field : {"id", "species", "count", "box"})
     expect_refused(head + std::string("[[classes]]\nname = \"Mine\"\nbase = \"Newton\"\nfields = [{ name = \"") +
@@ -63,14 +65,21 @@ TEST(Names, OfAllOtherKindsGoThroughARunAndAResume) {
 
 TEST(Names, TracksOfParticlesThatComeAndGoAreRefusedByCheckWithTheirLine) {
   std::string const picture =
-      "[output]\ntrajectory = 1\n[[output.pictures]]\ndrawing = \"cartesian\"\nfile = \"a.png\"\ntrace = 3\n";
-  for (std::string const cause :
-       {std::string("[[outflow]]\non = \"atoms\"\nfrom = [7, 0]\ndirection = [1, 0]\n"),
-        "[[events]]\nat = 0.02\non = \"atoms\"\nadd = { load = { kind = \"positions\", positions = [[5, 5]] } }\n"}) {
-    std::string const text = head + ensemble("atoms") + cause + picture;
-    Case const one("wrong", text);
-    if (has(one.check().err, "unknown key") || has(one.check().err, "needed")) ADD_FAILURE() << one.check().err;
+      "[output]\ntrajectory = 1\n[[output.pictures]]\ndrawing = \"cartesian\"\nfile = \"a.png\"\ntrace = true\n";
+  std::string const vortices =
+      "[[ensembles]]\nname = \"atoms\"\nclass = \"Vortex\"\nvorticity = 0.1\ncore = 0.5\nload = { kind = "
+      "\"positions\", "
+      "positions = [[1, 1], [3, 1]] }\n[[influences]]\nlaw = \"biot-savart\"\non = \"atoms\"\n";
+  for (std::string const before :
+       {ensemble("atoms") +
+            "[[events]]\nat = 0.02\non = \"atoms\"\nadd = { load = { kind = \"positions\", positions = [[5, "
+            "5]] } }\n",
+        vortices + "[[outflow]]\non = \"atoms\"\nfrom = [7, 0]\ndirection = [1, 0]\n",
+        vortices + "[[remesh]]\nevery = 2\non = \"atoms\"\nspacing = 0.5\n"}) {
+    std::string text = head + before + picture;
     expect_refused(text, "trace = ", "a picture with tracks needs particles that keep their numbers");
+    text.replace(text.find("trace = true"), 12, "trace = false");
+    EXPECT_EQ(Case("right", text).check().status, 0) << Case("right", text).check().err;
   }
 }
 
