@@ -70,6 +70,47 @@ INSTANTIATE_TEST_SUITE_P(Shipped, StoppedLate, testing::ValuesIn(plans()), [](au
   return name;
 });
 
+// A step from (n - 1) dt on ends at n dt, also where (n - 1) dt + dt is rounded to another number. Siblings: forces that
+// are calculated for friction and for a second stage, in a box whose images move.
+TEST(StoppedLate, AfterAnyStepForcesOfTheTimeAreTheSame) {
+  constexpr double step = 0.02;
+  std::vector<int> stops;
+  for (int n = 30; stops.size() < 4; ++n)
+    if ((n - 1) * step + step != n * step) stops.push_back(n);
+  std::string const gas =
+      "[units]\nbase = \"reduced\"\n[box]\nlow = [0, 0]\nhigh = [7, 7]\nboundary = \"periodic\"\nshear = { rate = 0.3, "
+      "flow = "
+      "\"x\", gradient = \"y\" }\n[run]\nstep = 0.02\nsteps = 200\ncutoff = 1\nskin = 0.3\nthreads = "
+      "1\n[[ensembles]]\nname "
+      "= \"fluid\"\nclass = \"Newton\"\nmass = 1\nnumber = 150\nload = { kind = \"random\" }\ntemperature = "
+      "1\nintegrator = "
+      "\"INTEGRATOR\"\n[[influences]]\nlaw = \"soft\"\non = \"fluid\"\nrepulsion = 25\nrange = 1\n[[diagnoses]]\nkind "
+      "= "
+      "\"pressure\"\n[output]\ndiagnoses = 1\ntrajectory = 9\n";
+  std::string const friction =
+      "[[dissipation]]\nkind = \"dpd\"\non = \"fluid\"\nconvention = \"fixed-temperature\"\ntemperature = 1\nfriction "
+      "= "
+      "4.5\nrange = 1\n";
+  for (auto const& [integrator, more] : {std::pair<std::string, std::string>{"leap-frog", friction}, {"rk2", ""}}) {
+    Case const folder("gas", std::string(gas).replace(gas.find("INTEGRATOR"), 10, integrator) + more);
+    int const last = stops.back() + 20;
+    ASSERT_EQ(
+        bzm({"run", "gas.toml", "--quiet", "--steps", std::to_string(last), "--out", "whole"}, folder.string()).status,
+        0);
+    for (int const stop : stops) {
+      ASSERT_EQ(bzm({"run", "gas.toml", "--quiet", "--steps", std::to_string(stop), "--out", "parts", "--force"},
+                    folder.string())
+                    .status,
+                0);
+      ASSERT_EQ(bzm({"resume", "parts", "--quiet", "--steps", std::to_string(last - stop)}, folder.string()).status, 0);
+      for (auto const* file : {"diagnoses.csv", "trajectory.h5", "trajectory.h5md"})
+        EXPECT_TRUE(text_of(folder / ("whole/" + std::string(file))) ==
+                    text_of(folder / ("parts/" + std::string(file))))
+            << integrator << ", " << file << ", stopped at step " << stop;
+    }
+  }
+}
+
 TEST(StoppedLate, EveryShippedScenarioIsInTheTable) {
   for (auto const& entry : fs::directory_iterator(std::string(BOLTZMANN_SOURCE) + "/scenarios")) {
     if (entry.path().extension() != ".toml") continue;
