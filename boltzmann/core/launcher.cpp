@@ -23,6 +23,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -153,15 +154,61 @@ Place join_launched(BoltzmannTeamFunctions const& functions, Launched const& tol
   return place;
 }
 
+std::string words_of_start(std::vector<std::string> const& words) {
+  std::string text = words.empty() ? "" : fs::path(words[0]).filename().string();
+  for (std::size_t k = 1; k < words.size(); ++k)
+    if (words[k] == "--threads")
+      ++k;
+    else if (!words[k].starts_with("--threads="))
+      text += " " + words[k];
+  return text;
+}
+
+std::string different_starts(int rank, std::string const& own, std::string const& other, std::string const& words) {
+  return fmt::format(
+      "rank {} was started with '{}', {} with '{}'; all ranks need the same command (only --threads may differ)", rank,
+      own, other, words);
+}
+
+/// Those of a file, each with a zero behind it.
+std::vector<std::string> texts_of(std::string const& path) {
+  std::ifstream file(path);
+  std::vector<std::string> texts;
+  for (std::string text; std::getline(file, text, '\0');) texts.push_back(text);
+  return texts;
+}
+
+/// The words of other ranks that run this program and have the same parent.
+std::vector<std::string> starts_beside() {
+  std::error_code ignored;
+  auto const program = fs::read_symlink("/proc/self/exe", ignored);
+  std::vector<std::string> all;
+  for (fs::directory_iterator task(fmt::format("/proc/{}/task", getppid()), ignored), end; task != end;
+       task.increment(ignored)) {
+    std::ifstream children(task->path() / "children");
+    for (long process = 0; children >> process;) {
+      std::string const place = fmt::format("/proc/{}", process);
+      if (process == getpid() || fs::read_symlink(place + "/exe", ignored) != program) continue;
+      auto const variables = texts_of(place + "/environ");
+      bool const other_rank = std::any_of(variables.begin(), variables.end(), [](std::string const& variable) {
+        auto const equals = variable.find('=');
+        std::string const name = variable.substr(0, equals);
+        return (name == "OMPI_COMM_WORLD_RANK" || name == "PMI_RANK" || name == "PMIX_RANK" ||
+                name == "SLURM_PROCID") &&
+               variable.substr(equals + 1) != environment(name.c_str());
+      });
+      if (auto const words = texts_of(place + "/cmdline"); other_rank && !words.empty())
+        all.push_back(words_of_start(words));
+    }
+  }
+  return all;
+}
+
 /// What is wrong if not all ranks were started alike; empty if they were. For all ranks.
 std::string different_start(Team& team) {
   auto const all = team.gather(start_words);
   for (std::size_t r = 1; r < all.size(); ++r)
-    if (all[r] != all[0])
-      return fmt::format(
-          "rank {} was started with '{}', rank 0 with '{}'; all ranks need the same command (only --threads may "
-          "differ)",
-          r, all[r], all[0]);
+    if (all[r] != all[0]) return different_starts(static_cast<int>(r), all[r], "rank 0", all[0]);
   return "";
 }
 
@@ -263,29 +310,18 @@ Launched launched() {
   return {};
 }
 
-void started_with(int argc, char const* const* argv) {
-  start_words = argc > 0 ? fs::path(argv[0]).filename().string() : "";
-  for (int k = 1; k < argc; ++k) {
-    std::string const word = argv[k];
-    if (word == "--threads")
-      ++k;
-    else if (!word.starts_with("--threads="))
-      start_words += " " + word;
-  }
-}
+void started_with(int argc, char const* const* argv) { start_words = words_of_start({argv, argv + argc}); }
 
 void compare_start_of_ranks() {
   Launched const told = launched();
   if (told.size == 1) return;
-  Opened const opened = open_plugin();
-  if (!opened.functions) return;
-  auto const [error, rank, size] = join_launched(*opened.functions, told);
-  if (error != 0) return;
-  Team team(*opened.functions, nullptr, rank, size);
-  team.patience(patience());
-  std::string const line = different_start(team);
-  opened.functions->leave(nullptr);
-  if (!line.empty()) refuse(told, line);
+  for (int looks = 0; looks < 10; ++looks) {
+    auto const others = starts_beside();
+    for (auto const& other : others)
+      if (other != start_words) throw Error(different_starts(told.rank, start_words, "another rank", other));
+    if (!others.empty()) return;
+    std::this_thread::sleep_for(clock_time(0.05));
+  }
 }
 
 void stay_alone() { setenv(marker, "1", 1); }

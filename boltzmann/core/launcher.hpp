@@ -20,8 +20,8 @@ void stay_alone();
 /// Says with which words this process was started. Ranks that were started with other words than rank 0 are refused when
 /// they join their team; the number of threads alone may differ.
 void started_with(int argc, char const* const* argv);
-/// For a program that rank 0 alone does: the same comparison, after which each process is on its own. Error if the words
-/// differ.
+/// For a program that rank 0 alone does, without MPI: Error if the launcher has started another rank of this machine with
+/// other words. Looks for half a second if it finds no other rank.
 void compare_start_of_ranks();
 
 /// The machine, since it was started, and the processes that see each other on it.

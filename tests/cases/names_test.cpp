@@ -70,7 +70,7 @@ TEST(Names, TracksOfParticlesThatComeAndGoAreRefusedByCheckWithTheirLine) {
       "[[ensembles]]\nname = \"atoms\"\nclass = \"Vortex\"\nvorticity = 0.1\ncore = 0.5\nload = { kind = "
       "\"positions\", "
       "positions = [[1, 1], [3, 1]] }\n[[influences]]\nlaw = \"biot-savart\"\non = \"atoms\"\n";
-  for (std::string const before :
+  for (std::string const& before :
        {ensemble("atoms") +
             "[[events]]\nat = 0.02\non = \"atoms\"\nadd = { load = { kind = \"positions\", positions = [[5, "
             "5]] } }\n",
