@@ -104,7 +104,8 @@ struct Recording::State {
 
   void check_what() const {
     rows.check();
-    for (auto const* ensemble : ensembles()) check_stored_names(*ensemble);
+    if (frames.every > 0)
+      for (auto const* ensemble : ensembles()) check_stored_names(*ensemble);
     if (every_mesh > 0 && mesh_fields_of(simulation.schemes()).empty())
       throw Error("mesh frames can't be recorded: there is no mesh in this simulation");
     std::vector<std::string> columns;
