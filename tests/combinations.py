@@ -43,7 +43,8 @@ class Scenario:
     def __init__(self, seed):
         self.chance = random.Random(seed)
         self.tables = [("units", {"base": "reduced"})]
-        self.steps = self.chance.randint(10, 40)
+        # Some runs are long enough for all that happens late: criteria that are looked at again every 64 calculations.
+        self.steps = self.chance.randint(10, 40) * self.one(1, 1, 1, 4)
         self.chance.choices((self.atoms, self.matter, self.vortices, self.plasma), (10, 4, 3, 3))[0]()
         self.add("output", diagnoses=self.one(1, 2, 3, 7), trajectory=self.one(1, 4, 9), checkpoint=self.one(0, 5, 11))
 
@@ -230,6 +231,8 @@ class Scenario:
             self.add("[influences]", law="vorticity-exchange", on="v", width=1, cutoff=4)
         if kind == "Spreading":
             self.add("[split_cores]", every=3, above=0.8, merge_within=0.3)
+        if self.dimension == 2 and self.maybe(0.3):  # whose influences come after all others
+            self.add("[bodies]", name="b", shape="circle", radius=0.3, panels=24, centre=self.place())
         if self.maybe(0.4):
             self.add("[influences]", law="uniform-flow", on="d", velocity=self.vector(1))
         if self.maybe(0.4):

@@ -6,10 +6,13 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <poll.h>
 #include <sys/prctl.h>
+#include <sys/signalfd.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <csignal>
 #include <cstdlib>
@@ -52,6 +55,94 @@ int status_of(int status) { return WIFEXITED(status) ? WEXITSTATUS(status) : 128
   _exit(2);
 }
 
+/// Still a rank, and no process that has its number since it has ended.
+bool is_rank(int process) {
+  std::error_code gone;
+  return std::filesystem::read_symlink(fmt::format("/proc/{}/exe", process), gone) == own_path() && !gone;
+}
+
+/// A launcher with its ranks, which signals reach directly: launchers do not forward them reliably, and some end ranks
+/// a second later.
+struct Launch {
+  pid_t launcher;
+  bool open_mpi;
+  LocalRanks& ranks;
+  int signalled = 0;  // times
+
+  static void send(std::vector<int> const& to, int number) {
+    for (int const rank : to)
+      if (is_rank(rank)) kill(rank, number);
+  }
+
+  /// The first signal stops the run after its step, the second ends all ranks.
+  void pass_on() {
+    ranks.read_new();
+    ++signalled;
+    if (signalled > 2) {
+      send(ranks.all(), SIGKILL);
+      kill(launcher, SIGKILL);
+    } else if (signalled == 2) {
+      send(ranks.all(), SIGUSR1);
+      kill(launcher, SIGTERM);
+    } else if (!ranks.all().empty()) {
+      send(ranks.all(), SIGUSR1);  // they tell the ranks of other machines
+    } else {
+      // Open MPI forwards SIGUSR1, perhaps; a launcher that gets SIGTERM ends all.
+      kill(launcher, open_mpi ? SIGUSR1 : SIGTERM);
+    }
+  }
+
+  /// Ranks that begin after a signal stop, too.
+  void welcome() {
+    auto const found = ranks.read_new();
+    if (signalled > 0) send(found, SIGUSR1);
+  }
+
+  int status(int of_launcher) const {
+    int const of_all = status_of(of_launcher);
+    if (signalled == 0 && of_all > 128)
+      fmt::print(stderr, "a rank was ended by signal {} ({}), and the others with it; the last checkpoint is whole\n",
+                 of_all - 128, strsignal(of_all - 128));
+    return signalled > 1 || (signalled == 1 && of_all > 128) ? 130 : of_all;
+  }
+};
+
+/// The signals that stop a run; SIGHUP not where nohup has it ignored.
+sigset_t watched_signals() {
+  sigset_t signals;
+  sigemptyset(&signals);
+  for (int const number : {SIGINT, SIGTERM, SIGHUP, SIGCHLD}) sigaddset(&signals, number);
+  struct sigaction hangup {};
+  sigaction(SIGHUP, nullptr, &hangup);
+  if (hangup.sa_handler == SIG_IGN) sigdelset(&signals, SIGHUP);
+  return signals;
+}
+
+/// Starts the launcher, passes signals on, and gives the exit status.
+int start_and_wait(std::vector<std::string> const& line, bool open_mpi) {
+  LocalRanks ranks;
+  sigset_t const signals = watched_signals();
+  sigset_t before;
+  sigprocmask(SIG_BLOCK, &signals, &before);
+  int const caught = signalfd(-1, &signals, SFD_CLOEXEC | SFD_NONBLOCK);
+  pid_t const child = caught < 0 ? -1 : fork();
+  if (child < 0) throw Error(fmt::format("'{}' can't be started: {}", line[0], std::strerror(errno)));
+  if (child == 0) become(line, before);
+  Launch launch{child, open_mpi, ranks};
+  for (;;) {
+    if (int status = 0; waitpid(child, &status, WNOHANG) == child) {
+      close(caught);
+      sigprocmask(SIG_SETMASK, &before, nullptr);
+      return launch.status(status);
+    }
+    std::array<pollfd, 2> waiting{pollfd{caught, POLLIN, 0}, pollfd{ranks.descriptor(), POLLIN, 0}};
+    if (poll(waiting.data(), waiting.size(), -1) < 0 && errno != EINTR) throw Error("no signals can be waited for");
+    for (signalfd_siginfo signal; read(caught, &signal, sizeof signal) == sizeof signal;)
+      if (signal.ssi_signo != SIGCHLD) launch.pass_on();
+    launch.welcome();
+  }
+}
+
 }  // namespace
 
 std::string launcher_version() {
@@ -89,29 +180,7 @@ int run_on_ranks(std::vector<std::string> const& words, Ranks const& ranks) {
   line.insert(line.end(), {"-n", std::to_string(*ranks.count), own_path()});
   line.insert(line.end(), words.begin(), words.end());
 
-  sigset_t signals, before;
-  sigemptyset(&signals);
-  for (int const number : {SIGINT, SIGTERM, SIGHUP, SIGCHLD}) sigaddset(&signals, number);
-  sigprocmask(SIG_BLOCK, &signals, &before);
-  pid_t const child = fork();
-  if (child < 0) throw Error(fmt::format("'{}' can't be started: {}", launcher, std::strerror(errno)));
-  if (child == 0) become(line, before);
-  int told = 0;
-  for (;;) {
-    int status = 0;
-    if (waitpid(child, &status, WNOHANG) == child) {
-      sigprocmask(SIG_SETMASK, &before, nullptr);
-      int const of_all = status_of(status);
-      if (told == 0 && of_all > 128)
-        fmt::print(stderr, "a rank was ended by signal {} ({}), and the others with it; the last checkpoint is whole\n",
-                   of_all - 128, strsignal(of_all - 128));
-      return told > 1 || (told == 1 && of_all > 128) ? 130 : of_all;
-    }
-    int const number = sigwaitinfo(&signals, nullptr);
-    if (number < 0 || number == SIGCHLD) continue;
-    // SIGUSR1 reaches ranks, and leaves them the time that they need; SIGTERM would be followed by SIGKILL.
-    kill(child, ++told == 1 && open_mpi ? SIGUSR1 : SIGTERM);
-  }
+  return start_and_wait(line, open_mpi);
 }
 
 }  // namespace boltzmann::bzm

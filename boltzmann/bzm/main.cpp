@@ -402,12 +402,14 @@ int main(int argc, char** argv) {
   hdf5::leave_without_words();
   std::signal(SIGXFSZ, SIG_IGN);  // a limit on the size of files is an error that can be told, as a full disk is
   std::string const command = argc > 1 ? argv[1] : "";
-  if (command != "run" && command != "resume" &&
-      command != "bench") {  // what is no run is done once, whoever starts several
-    if (launched().rank > 0) return 0;
-    stay_alone();
-  }
+  bool const by_all = command == "run" || command == "resume" || command == "bench";
   try {
+    started_with(argc, argv);
+    if (!by_all) {  // rank 0 does it alone, whoever starts several
+      compare_start_of_ranks();
+      if (launched().rank > 0) return 0;
+      stay_alone();
+    }
     team();  // ranks above 0 print nothing from here on
     return CommandLine().perform(argc, argv);
   } catch (ScenarioErrors const& errors) {

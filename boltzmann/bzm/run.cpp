@@ -3,7 +3,9 @@
 #include <boltzmann/bzm/run_recording.hpp>
 #include <boltzmann/core/team.hpp>
 #include <boltzmann/files/checkpoint.hpp>
+#include <boltzmann/files/csv.hpp>
 #include <boltzmann/files/folder_lock.hpp>
+#include <boltzmann/files/trajectory.hpp>
 #include <boltzmann/simulation/conserved.hpp>
 #include <boltzmann/sweep/run_sweep.hpp>
 
@@ -97,6 +99,49 @@ int run(RunOptions const& options) {
   return run_recording(*scenario, *recording, scenario->steps, scenario->steps, options.quiet, wall, options.window);
 }
 
+namespace {
+
+/// Whether the folder has a scenario, but was left before its first checkpoint was there. Error if it holds results of
+/// later steps, which a new start would lose.
+bool begun_without_checkpoint(std::string const& folder) {
+  namespace fs = std::filesystem;
+  for (auto const* file : {"/checkpoint.h5", "/checkpoint.h5.previous"})
+    if (fs::exists(fs::symlink_status(folder + file))) return false;
+  if (!fs::is_regular_file(folder + "/scenario.toml")) return false;
+  bool later = false;
+  try {
+    later = read_csv(folder + "/diagnoses.csv").columns.at(0).size() > 1;
+  } catch (std::exception const&) {  // none, or its first row is half written
+  }
+  try {
+    later = later || TrajectoryReader(folder + "/trajectory.h5").frames() > 1;
+  } catch (Error const&) {
+  }
+  if (later)
+    throw Error(
+        fmt::format("'{0}' has results but no checkpoint.h5 to go on from; 'bzm run {0}/scenario.toml --out {0} "
+                    "--force' runs it again and replaces them",
+                    folder));
+  return true;
+}
+
+/// The run of a folder that has no checkpoint yet.
+int start_again(ResumeOptions const& options, WallTime const& wall) {
+  std::string const path = options.folder + "/scenario.toml";
+  auto const scenario = parse_scenario(read_scenario(path).text, path, {{}, {}, {}, options.threads});
+  auto const recording = make_recording(*scenario, options.folder, {.overwrite = true});
+  std::int64_t const steps = options.steps.value_or(scenario->steps);
+  recording->planned(steps);
+  scenario->simulation->check();
+  recording->check();
+  if (!options.quiet) print_heading(*scenario, options.folder);
+  fmt::print("it was stopped before its first checkpoint; it starts again at step 0\n");
+  std::fflush(stdout);
+  return run_recording(*scenario, *recording, steps, steps, options.quiet, wall, options.window);
+}
+
+}  // namespace
+
 int resume(ResumeOptions const& options) {
   WallTime const wall(options.hours);
   refuse_in_window(options.hours, options.window);
@@ -111,6 +156,7 @@ int resume(ResumeOptions const& options) {
                   "its folders");
     return status_of(resume_sweep(options.folder, options.threads, options.quiet, wall), options.folder);
   }
+  if (team().first_says(begun_without_checkpoint(options.folder))) return start_again(options, wall);
   auto const checkpoint = read_checkpoint(path);
   if (checkpoint.scenario.empty())
     throw Error("'" + path +

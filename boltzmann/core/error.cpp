@@ -68,11 +68,36 @@ std::string did_you_mean(std::string_view word, std::span<std::string const> can
   return best.empty() ? "" : "; did you mean '" + best + "'?";
 }
 
+namespace {
+
+/// Bytes of the letter of UTF-8 that begins here; 0 if there is none.
+std::size_t letter_bytes(std::string_view text) {
+  auto const byte = [&](std::size_t k) { return k < text.size() ? static_cast<unsigned char>(text[k]) : 0U; };
+  unsigned const first = byte(0);
+  std::size_t const count = first < 0x80   ? 1
+                            : first < 0xc2 ? 0
+                            : first < 0xe0 ? 2
+                            : first < 0xf0 ? 3
+                            : first < 0xf5 ? 4
+                                           : 0;
+  for (std::size_t k = 1; k < count; ++k)
+    if ((byte(k) & 0xc0U) != 0x80) return 0;
+  if ((first == 0xe0 && byte(1) < 0xa0) || (first == 0xed && byte(1) >= 0xa0)) return 0;
+  return (first == 0xf0 && byte(1) < 0x90) || (first == 0xf4 && byte(1) >= 0x90) ? 0 : count;
+}
+
+}  // namespace
+
 std::string quoted(std::string_view text) {
   constexpr std::size_t longest = 40;
   std::string shown(text.substr(0, longest));
-  for (char& letter : shown)
-    if (static_cast<unsigned char>(letter) < ' ' || letter == 127) letter = '?';
+  for (std::size_t k = 0; k < shown.size();) {
+    // What follows the end of `shown` belongs to a letter that is cut, which goes below.
+    std::size_t const count = letter_bytes(text.substr(k));
+    unsigned char const letter = static_cast<unsigned char>(shown[k]);
+    if (count == 0 || letter < ' ' || letter == 127) shown[k] = '?';
+    k += std::max<std::size_t>(count, 1);
+  }
   while (shown.size() < text.size() && !shown.empty() &&
          (static_cast<unsigned char>(text[shown.size()]) & 0xc0U) == 0x80)
     shown.pop_back();  // no half letters of UTF-8

@@ -19,11 +19,15 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <condition_variable>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <memory>
+#include <mutex>
 #include <string>
+#include <thread>
 #include <vector>
 
 namespace boltzmann {
@@ -36,6 +40,7 @@ constexpr char const* marker = "BOLTZMANN_ALONE";
 
 thread_local Team* acting = nullptr;
 std::atomic<Team*> joined{nullptr};
+std::string start_words;
 int real_errors = STDERR_FILENO;  // of a silent rank, where its last words go
 
 std::string environment(char const* name) {
@@ -111,6 +116,102 @@ void leave_at_exit(int status, void*) {
   throw Error(line);
 }
 
+/// Ends this process with a line if `call` takes too long. What a library waits for cannot be interrupted otherwise.
+template <class Call>
+void within(double seconds, std::string const& line, Call const& call) {
+  std::mutex mutex;
+  std::condition_variable changed;
+  bool done = false;
+  std::thread watch([&] {
+    std::unique_lock lock(mutex);
+    if (changed.wait_for(lock, clock_time(std::min(seconds, 1e9)), [&] { return done; })) return;
+    tell_last_words(line);
+    _exit(1);
+  });
+  call();
+  {
+    std::scoped_lock const lock(mutex);
+    done = true;
+  }
+  changed.notify_all();
+  watch.join();
+}
+
+struct Place {
+  int error = 0, rank = 0, size = 1;
+};
+
+/// Becomes a rank.
+Place join_launched(BoltzmannTeamFunctions const& functions, Launched const& told) {
+  double const seconds = patience();
+  Place place;
+  within(
+      seconds,
+      fmt::format("rank {} has waited {:.3g} s for the other processes of this launch to join; every process must be "
+                  "the same program (BOLTZMANN_PATIENCE sets how many seconds a rank waits)",
+                  told.rank, seconds),
+      [&] { place.error = functions.join(nullptr, &place.rank, &place.size); });
+  return place;
+}
+
+std::string words_of_start(std::vector<std::string> const& words) {
+  std::string text = words.empty() ? "" : fs::path(words[0]).filename().string();
+  for (std::size_t k = 1; k < words.size(); ++k)
+    if (words[k] == "--threads")
+      ++k;
+    else if (!words[k].starts_with("--threads="))
+      text += " " + words[k];
+  return text;
+}
+
+std::string different_starts(int rank, std::string const& own, std::string const& other, std::string const& words) {
+  return fmt::format(
+      "rank {} was started with '{}', {} with '{}'; all ranks need the same command (only --threads may differ)", rank,
+      own, other, words);
+}
+
+/// Those of a file, each with a zero behind it.
+std::vector<std::string> texts_of(std::string const& path) {
+  std::ifstream file(path);
+  std::vector<std::string> texts;
+  for (std::string text; std::getline(file, text, '\0');) texts.push_back(text);
+  return texts;
+}
+
+/// The words of other ranks that run this program and have the same parent.
+std::vector<std::string> starts_beside() {
+  std::error_code ignored;
+  auto const program = fs::read_symlink("/proc/self/exe", ignored);
+  std::vector<std::string> all;
+  for (fs::directory_iterator task(fmt::format("/proc/{}/task", getppid()), ignored), end; task != end;
+       task.increment(ignored)) {
+    std::ifstream children(task->path() / "children");
+    for (long process = 0; children >> process;) {
+      std::string const place = fmt::format("/proc/{}", process);
+      if (process == getpid() || fs::read_symlink(place + "/exe", ignored) != program) continue;
+      auto const variables = texts_of(place + "/environ");
+      bool const other_rank = std::any_of(variables.begin(), variables.end(), [](std::string const& variable) {
+        auto const equals = variable.find('=');
+        std::string const name = variable.substr(0, equals);
+        return (name == "OMPI_COMM_WORLD_RANK" || name == "PMI_RANK" || name == "PMIX_RANK" ||
+                name == "SLURM_PROCID") &&
+               variable.substr(equals + 1) != environment(name.c_str());
+      });
+      if (auto const words = texts_of(place + "/cmdline"); other_rank && !words.empty())
+        all.push_back(words_of_start(words));
+    }
+  }
+  return all;
+}
+
+/// What is wrong if not all ranks were started alike; empty if they were. For all ranks.
+std::string different_start(Team& team) {
+  auto const all = team.gather(start_words);
+  for (std::size_t r = 1; r < all.size(); ++r)
+    if (all[r] != all[0]) return different_starts(static_cast<int>(r), all[r], "rank 0", all[0]);
+  return "";
+}
+
 /// Ranks of one machine don't need MPI for what they tell each other.
 void speak_by_memory(Team& team, BoltzmannTeamFunctions const& launched) {
   std::string const said = environment("BOLTZMANN_MESSAGES");
@@ -143,6 +244,7 @@ Team* join() {
   if (Team* const team = joined) return team;
   Launched const told = launched();
   if (told.size == 1) return new Team;
+  LocalRanks::report();
   std::string const several = told.size > 1 ? fmt::format("{} processes", told.size) : "processes";
   Opened const opened = open_plugin();
   if (opened.plugin.path.empty())
@@ -151,21 +253,23 @@ Team* join() {
                        "run; {}",
                        several, how_to_make_mpi_plugin()));
   if (!opened.functions) refuse(told, fmt::format("'{}' can't be used: {}", opened.plugin.path, opened.plugin.reason));
-  double const seconds = patience();
-  int rank = 0, size = 1;
-  if (int const error = opened.functions->join(nullptr, &rank, &size))
-    refuse(told, fmt::format("MPI can't begin (its error {})", error));
+  auto const [error, rank, size] = join_launched(*opened.functions, told);
+  if (error != 0) refuse(told, fmt::format("MPI can't begin (its error {})", error));
   if (told.size > 1 && size != told.size)
     refuse(told,
            fmt::format("a launcher has started {} of this, but MPI knows of {}: '{}' was compiled with another MPI "
                        "({}) than that of the launcher",
                        several, size, opened.plugin.path, opened.plugin.library));
   auto* const team = new Team(*opened.functions, nullptr, rank, size);  // for ever: what leaves it runs last of all
+  team->patience(patience());
+  if (std::string const line = different_start(*team); !line.empty()) {
+    opened.functions->leave(nullptr);
+    refuse(told, line);
+  }
   joined = team;
   stay_alone();  // what it starts
   on_exit(leave_at_exit, nullptr);
   if (rank > 0) silence();
-  team->patience(seconds);
   speak_by_memory(*team, *opened.functions);
   settle(*team);
   return team;
@@ -204,6 +308,20 @@ Launched launched() {
       return {std::atoi(environment(rank).c_str()), std::max(1, std::atoi(environment(size).c_str()))};
   if (auto const rank = environment("PMIX_RANK"); !rank.empty()) return {std::atoi(rank.c_str()), 0};
   return {};
+}
+
+void started_with(int argc, char const* const* argv) { start_words = words_of_start({argv, argv + argc}); }
+
+void compare_start_of_ranks() {
+  Launched const told = launched();
+  if (told.size == 1) return;
+  for (int looks = 0; looks < 10; ++looks) {
+    auto const others = starts_beside();
+    for (auto const& other : others)
+      if (other != start_words) throw Error(different_starts(told.rank, start_words, "another rank", other));
+    if (!others.empty()) return;
+    std::this_thread::sleep_for(clock_time(0.05));
+  }
 }
 
 void stay_alone() { setenv(marker, "1", 1); }

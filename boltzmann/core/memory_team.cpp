@@ -1,6 +1,7 @@
 // Outboxes, and the operations of a team by them.
 #include <boltzmann/core/memory_team.hpp>
 
+#include <boltzmann/core/launcher.hpp>
 #include <boltzmann/core/team.hpp>
 
 #include <fcntl.h>
@@ -13,7 +14,6 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <random>
 #include <string>
 #include <utility>
@@ -50,14 +50,6 @@ bool grow(int file, std::size_t size) {
 #else
   return false;
 #endif
-}
-
-/// The machine, since it was started, and the processes that see each other on it.
-std::string where_processes_are_numbered() {
-  std::error_code ignored;
-  std::string machine;
-  std::getline(std::ifstream("/proc/sys/kernel/random/boot_id"), machine);
-  return machine + " " + std::filesystem::read_symlink("/proc/self/ns/pid", ignored).string();
 }
 
 }  // namespace

@@ -11,14 +11,29 @@
 #include <cerrno>
 #include <map>
 #include <mutex>
+#include <set>
 #include <utility>
 
 namespace boltzmann {
+namespace {
+
+using Identity = std::pair<dev_t, ino_t>;
+
+std::mutex mutex;
+std::map<Identity, std::weak_ptr<void const>> held;
+std::set<Identity> with_window;  // of this process
+
+}  // namespace
+
+void own_window_file(std::string const& folder) {
+  struct stat facts {};
+  if (stat(folder.c_str(), &facts) != 0) return;
+  std::scoped_lock const guard(mutex);
+  with_window.insert({facts.st_dev, facts.st_ino});
+}
+
 FolderLock lock_folder(std::string const& folder) {
   if (!team().first()) return {};  // which writes nothing
-  static std::mutex mutex;
-  static std::map<std::pair<dev_t, ino_t>, std::weak_ptr<void const>> held;
-
   int const opened = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (opened < 0) return {};
   std::shared_ptr<int const> const descriptor(new int(opened), [](int const* number) {
@@ -28,7 +43,8 @@ FolderLock lock_folder(std::string const& folder) {
   struct stat facts {};
   if (fstat(opened, &facts) != 0) return {};
   std::scoped_lock const guard(mutex);
-  auto& own = held[{facts.st_dev, facts.st_ino}];
+  Identity const identity{facts.st_dev, facts.st_ino};
+  auto& own = held[identity];
   if (auto lock = own.lock()) return lock;
   if (flock(opened, LOCK_EX | LOCK_NB) != 0) {
     if (errno == EWOULDBLOCK)
@@ -36,6 +52,7 @@ FolderLock lock_folder(std::string const& folder) {
     return {};
   }
   own = descriptor;
+  if (!with_window.contains(identity)) unlinkat(opened, "window.txt", 0);
   return descriptor;
 }
 

@@ -80,20 +80,6 @@ std::uint64_t checksum_of(std::vector<double> const& values, StoredColumn const&
   return layout::checksum(own);
 }
 
-void check_names(std::string const& path, AnyEnsemble const& ensemble) {
-  auto const refuse = [&](std::string const& what) { throw Error(path + ": " + what); };
-  auto const usable = [](std::string const& name) {
-    return !name.empty() && name != "." && name.find('/') == std::string::npos && name.find('\0') == std::string::npos;
-  };
-  if (!usable(ensemble.name())) refuse(fmt::format("an ensemble can't be called '{}' in a file", ensemble.name()));
-  for (auto const& field : ensemble.fields()) {
-    if (!usable(field.name)) refuse(fmt::format("a field can't be called '{}' in a file", field.name));
-    if (field.name == "box" || field.name == "count" || field.name == "id" || field.name == "species")
-      refuse(fmt::format("the field '{}' of ensemble '{}' has a name that H5MD needs for itself", field.name,
-                         ensemble.name()));
-  }
-}
-
 }  // namespace
 
 struct Trajectory::State {
@@ -155,7 +141,11 @@ struct Trajectory::State {
 void Trajectory::State::lay_out(std::span<AnyEnsemble const* const> list, BoxEdges const& box) {
   if (list.empty()) throw Error(path + ": a trajectory needs an ensemble");
   for (std::size_t k = 0; k < list.size(); ++k) {
-    check_names(path, *list[k]);
+    try {
+      check_stored_names(*list[k]);
+    } catch (Error const& error) {
+      throw Error(path + ": " + error.what());
+    }
     for (std::size_t other = 0; other < k; ++other)
       if (list[other]->name() == list[k]->name())
         throw Error(fmt::format("{}: two ensembles are called '{}'", path, list[k]->name()));
@@ -561,6 +551,28 @@ void Trajectory::close() {
   state_->close_datasets();
   auto const file = std::move(state_->file);
   file->close();
+}
+
+void check_stored_name(std::string const& what, std::string const& name) {
+  // HDF5 reads '/' and '.' as paths, and names of ensembles are in those of files.
+  constexpr std::size_t longest = 100;
+  bool const control = std::any_of(name.begin(), name.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; });
+  if (name.empty() || name.size() > longest || control || name == "." || name == ".." ||
+      name.find('/') != std::string::npos)
+    throw Error(
+        fmt::format("{} can't be called '{}' in files; a name has 1 to {} letters, without '/' and control characters, "
+                    "and is not '.' or '..'",
+                    what, boltzmann::quoted(name), longest));
+}
+
+void check_stored_names(AnyEnsemble const& ensemble) {
+  check_stored_name("an ensemble", ensemble.name());
+  for (auto const& field : ensemble.fields()) {
+    check_stored_name("a field", field.name);
+    if (field.name == "box" || field.name == "count" || field.name == "id" || field.name == "species")
+      throw Error(fmt::format("the field '{}' of ensemble '{}' has a name that H5MD needs for itself; choose another",
+                              field.name, ensemble.name()));
+  }
 }
 
 std::string h5md_unit(std::string const& unit) {

@@ -78,6 +78,11 @@ class Trajectory {
   std::unique_ptr<State> state_;
 };
 
+/// Error if files cannot have this name. `what` has it: "an ensemble".
+void check_stored_name(std::string const& what, std::string const& name);
+/// The same for an ensemble and all its fields.
+void check_stored_names(AnyEnsemble const& ensemble);
+
 /// Reads a trajectory that Trajectory wrote. Sees the frames that were there when it was opened.
 class TrajectoryReader {
  public:
@@ -121,9 +126,13 @@ class TrajectoryReader {
   std::vector<double> read(std::size_t frame, std::string const& ensemble, std::string const& field,
                            Numbers numbers = Numbers::simulation) const;
   BoxEdges box(std::size_t frame, Numbers numbers = Numbers::simulation) const;
-  double written_time(std::size_t frame) const { return times_.at(frame) * time_factor_; }
+  /// The time of a frame as it is in the file, in time_unit().
+  double written_time(std::size_t frame) const { return written_times_.at(frame); }
   /// Trajectory::checksum() when it had so many frames; 0 in a file of version 0.1.
   std::uint64_t checksum(std::size_t frames) const;
+  /// Reads all of the first frames. Returns the first of them of which a field is not what was written, as a line; empty
+  /// if there is none. Error if they can't be read.
+  std::string find_damage(std::size_t frames) const;
   /// Fills the ensemble (resizing it) with the stored ensemble of the same name: every field of its class that the file
   /// has. Error if the file has no such ensemble, or it is of another class or dimension.
   void load(std::size_t frame, AnyEnsemble& ensemble) const;
@@ -136,13 +145,13 @@ class TrajectoryReader {
   struct State;
   StoredField const& find(StoredEnsemble const& ensemble, std::string const& field) const;
   std::size_t checked(std::size_t frame) const;
+  std::string find_damage(std::size_t frames, StoredEnsemble const& ensemble, StoredField const& field) const;
 
   std::unique_ptr<State> state_;
   std::vector<StoredEnsemble> ensembles_;
   std::vector<std::int64_t> steps_;
-  std::vector<double> times_;
+  std::vector<double> times_, written_times_;
   std::string time_unit_;
-  double time_factor_ = 1;
 };
 
 /// A unit as H5MD writes it, "Angstrom ps-1" for "angstrom/ps", "" for a text that is not made of units (a number with

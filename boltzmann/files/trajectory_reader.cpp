@@ -189,8 +189,9 @@ TrajectoryReader::TrajectoryReader(std::string path) : state_(std::make_unique<S
   steps_ = std::move(stored.steps);
   times_ = std::move(stored.times);
   state_->find_damaged(ensembles_, steps_, times_);
-  time_factor_ = state_->factor("/particles/" + ensembles_[0].name + "/position/time");
-  for (double& time : times_) time /= time_factor_;
+  written_times_ = times_;
+  double const time_factor = state_->factor("/particles/" + ensembles_[0].name + "/position/time");
+  for (double& time : times_) time /= time_factor;
   time_unit_ = unit("/particles/" + ensembles_[0].name + "/position/time");
 }
 
@@ -282,6 +283,53 @@ BoxEdges TrajectoryReader::box(std::size_t frame, Numbers numbers) const {
   for (std::size_t axis = 0; axis < d; ++axis) box.low[axis] /= factor, box.high[axis] /= factor;
   std::ranges::copy(layout::periodic_axes(file, group), box.periodic);
   return box;
+}
+
+std::string TrajectoryReader::find_damage(std::size_t frames) const {
+  frames = std::min(frames, this->frames());
+  std::string found;
+  for (auto const& ensemble : ensembles_) {
+    for (char const* label : {"id", "species"})
+      state_->file->dataset("/particles/" + ensemble.name + "/" + label).integers();
+    for (auto const& field : ensemble.fields)
+      if (auto line = find_damage(frames, ensemble, field); found.empty()) found = std::move(line);
+  }
+  return found;
+}
+
+/// In blocks of frames, of some 32 MB.
+std::string TrajectoryReader::find_damage(std::size_t frames, StoredEnsemble const& ensemble,
+                                          StoredField const& field) const {
+  std::string const element = "/particles/" + ensemble.name + "/" + field.name;
+  auto const line = [&](std::size_t frame) {
+    return fmt::format("{}: its frame {} is damaged: {} is not what was written", state_->file->path(), frame, element);
+  };
+  if (field.constant || !state_->file->has(element + "/checksum")) return "";
+  auto const dataset = state_->file->dataset(element + "/value");
+  hdf5::Extents block = dataset.extents(), start(block.size(), 0);
+  std::size_t const columns = block.size() > 2 ? block[2] : 1, components = static_cast<std::size_t>(field.components);
+  if (block.size() < 2 || columns < components) return line(0);
+  std::vector<std::int64_t> sums(frames), counts(frames);
+  state_->file->dataset(element + "/checksum").read(sums.data(), {0}, {frames});
+  state_->file->dataset("/particles/" + ensemble.name + "/count/value").read(counts.data(), {0}, {frames});
+  std::size_t const capacity = block[1], row = std::max<std::size_t>(capacity * columns, 1);
+  if (row > std::size_t{1} << 40) return line(0);
+  std::size_t const most = std::clamp<std::size_t>((std::size_t{1} << 22) / row, 1, 8192);
+  std::vector<double> values, own;
+  for (std::size_t first = 0; first < frames; first += most) {
+    start[0] = first, block[0] = std::min(most, frames - first);
+    values.resize(block[0] * capacity * columns);
+    dataset.read(values.data(), start, block);
+    for (std::size_t f = 0; f < block[0]; ++f) {
+      if (counts[first + f] < 0 || static_cast<std::uint64_t>(counts[first + f]) > capacity) return line(first + f);
+      own.clear();
+      auto at = values.begin() + static_cast<std::ptrdiff_t>(f * capacity * columns);
+      for (std::int64_t i = 0; i < counts[first + f]; ++i, at += static_cast<std::ptrdiff_t>(columns))
+        own.insert(own.end(), at, at + field.components);
+      if (std::bit_cast<std::uint64_t>(sums[first + f]) != layout::checksum(own)) return line(first + f);
+    }
+  }
+  return "";
 }
 
 void TrajectoryReader::load(std::size_t frame, Box& box) const {

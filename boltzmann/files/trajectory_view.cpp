@@ -178,8 +178,7 @@ class View {
   /// From each frame to the next; frames that come are taken to follow as the last ones do.
   void add_intervals(std::span<double const> times, bool finished) {
     if (times.size() < 2) return;
-    double const factor = (options_.factor ? options_.factor(dimensions::time) : 1) *
-                          (readable_ ? picoseconds(h5md_unit(unit(dimensions::time))) : 1);
+    double const factor = readable_ ? picoseconds(h5md_unit(unit(dimensions::time))) : 1;
     std::vector<double> intervals;
     for (std::size_t k = 1; k < times.size(); ++k) intervals.push_back(factor * (times[k] - times[k - 1]));
     intervals.push_back(intervals.back());

@@ -18,7 +18,7 @@ bool mdanalysis_reads(std::string_view element, std::string_view unit);
 /// writes of these ensembles, frame by frame: it need not be written again when there are more. The particles of all
 /// ensembles stand one behind the other in the group that MDAnalysis looks for when it is given nothing else
 /// (`particles/trajectory`), with positions, velocities where all have them, box, species, masses and charges; `times` of
-/// the frames so far, in the simulation's units, say the steps in time between them; unless it is finished more are expected,
+/// the frames so far, as they are in the file, give the steps in time between them; unless it is finished more are expected,
 /// up to twice as many, that follow like the last ones. Units are those of the trajectory where
 /// MDAnalysis reads them; where it doesn't read one of them, all numbers stand as they are and are called angstrom, ps and
 /// angstrom/ps, and `boltzmann_unit` says what they are. Error if it can't be written; then there is none.

@@ -1,5 +1,6 @@
 // The command line of programs, and the run that it asks for.
 #include <boltzmann/core/error.hpp>
+#include <boltzmann/core/launcher.hpp>
 #include <boltzmann/core/quantity_text.hpp>
 #include <boltzmann/core/team.hpp>
 #include <boltzmann/program/program.hpp>
@@ -172,6 +173,7 @@ RunReport Program::run_for(Recording& recording, double time) {
 }
 
 int run_program(int argc, char** argv, std::string const& folder, std::function<void(Program&)> const& function) try {
+  started_with(argc, argv);
   team();  // ranks above 0 print nothing from here on
   Program program(argc, argv, folder);
   if (program.wants_help()) {

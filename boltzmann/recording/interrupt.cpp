@@ -9,6 +9,8 @@
 #include <array>
 #include <atomic>
 #include <csignal>
+#include <cstdint>
+#include <ctime>
 #include <mutex>
 #include <utility>
 
@@ -27,8 +29,25 @@ static_assert(std::atomic<Simulation*>::is_always_lock_free && std::atomic<int>:
 std::array<int, 4> constexpr signals{SIGINT, SIGTERM, SIGHUP, SIGUSR1};
 std::array<struct sigaction, 4> before;
 
-extern "C" void on_signal(int) {
+std::atomic<bool> several_ranks{false};
+std::atomic<std::int64_t> first_signal{0};  // when it came, in ms
+static_assert(std::atomic<std::int64_t>::is_always_lock_free);
+
+std::int64_t milliseconds() {
+  std::timespec now{};
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return static_cast<std::int64_t>(now.tv_sec) * 1000 + now.tv_nsec / 1000000;
+}
+
+/// A launcher sends SIGTERM to ranks that have got the signal of the terminal already, and so does a batch system.
+bool same_signal_again(int number) {
+  return several_ranks && number != SIGUSR1 && milliseconds() - first_signal < 2000;
+}
+
+extern "C" void on_signal(int number) {
+  if (signals_seen > 0 && same_signal_again(number)) return;
   if (signals_seen.fetch_add(1) > 0) _exit(130);
+  first_signal = milliseconds();
   if (Simulation* simulation = stopped_by_signal.load()) simulation->stop();
 }
 
@@ -46,6 +65,7 @@ SignalWatch::SignalWatch() {
   std::scoped_lock const lock(installing);
   if (left_alone || watches++ > 0) return;
   signals_seen = 0;
+  several_ranks = !team().alone();
   struct sigaction action {};
   action.sa_handler = on_signal;
   sigemptyset(&action.sa_mask);

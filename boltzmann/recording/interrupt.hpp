@@ -7,6 +7,7 @@ class Simulation;
 
 /// While one lives, SIGINT, SIGTERM and SIGHUP (a lost terminal; not where nohup has it ignored), in a team of ranks
 /// SIGUSR1, too, are noticed, for whoever does several runs; a second signal ends the process at once with status 130.
+/// (Of several ranks not within two seconds, unless it is SIGUSR1: launchers repeat the first one.)
 /// The handlers from before come back with the last one.
 class SignalWatch {
  public:

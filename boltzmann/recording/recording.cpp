@@ -104,6 +104,8 @@ struct Recording::State {
 
   void check_what() const {
     rows.check();
+    if (frames.every > 0)
+      for (auto const* ensemble : ensembles()) check_stored_names(*ensemble);
     if (every_mesh > 0 && mesh_fields_of(simulation.schemes()).empty())
       throw Error("mesh frames can't be recorded: there is no mesh in this simulation");
     std::vector<std::string> columns;
@@ -168,10 +170,10 @@ struct Recording::State {
   /// What the run is, for those who come later: its scenario, or what a program does.
   void describe() const {
     bool const told = !scenario.empty();
-    TextFile(folder.path(told ? "scenario.toml" : run_file), TextFile::Mode::replace)
-        .write(told ? scenario
-                    : run_file_text(title, units, simulation.step_size(), simulation.schemes().front()->box(),
-                                    ensembles(), pictures));
+    write_whole(folder.path(told ? "scenario.toml" : run_file),
+                told ? scenario
+                     : run_file_text(title, units, simulation.step_size(), simulation.schemes().front()->box(),
+                                     ensembles(), pictures));
   }
 
   bool due(std::int64_t step) const {

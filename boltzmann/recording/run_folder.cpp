@@ -65,8 +65,8 @@ void RunFolder::undo() {
 void RunFolder::remove_results() const {
   std::error_code ignored;
   for (auto const* file : result_files) fs::remove(path(file), ignored);
-  for (auto const* beside : {"checkpoint.h5.previous", "checkpoint.h5.part", "trajectory.h5.undo", "trajectory.h5md",
-                             "trajectory.h5md.part"})
+  for (auto const* beside : {"checkpoint.h5.previous", "checkpoint.h5.part", "scenario.toml.part", "trajectory.h5.undo",
+                             "trajectory.h5md", "trajectory.h5md.part"})
     fs::remove(path(beside), ignored);
   MeshFrames::remove(name_);
 }

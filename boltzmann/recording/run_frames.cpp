@@ -61,6 +61,9 @@ void RunFrames::check(Checkpoint const& saved, std::string const& path) const {
         fmt::format("{}: its frames up to step {} are not those that this run has written (damaged, or of "
                     "another run)",
                     path, saved.step));
+  // This also finds damage of HDF5's own tables, over which it would not come while it writes.
+  if (auto const damage = stored.find_damage(count); !damage.empty())
+    fmt::print(stderr, "warning: {}; the run goes on, and the frame stays as it is\n", damage);
 }
 
 void RunFrames::go_on(std::string const& path, Checkpoint const& saved) {
@@ -74,7 +77,8 @@ void RunFrames::go_on(std::string const& path, Checkpoint const& saved) {
   stay_ = {stay, stored.checksum(stay)};
   stay_until_ = stay > 0 ? stored.steps()[stay - 1] : std::numeric_limits<std::int64_t>::min();
   stopped_ = saved.step;
-  times_.assign(stored.times().begin(), stored.times().begin() + static_cast<std::ptrdiff_t>(stay));
+  times_.clear();
+  for (std::size_t frame = 0; frame < stay; ++frame) times_.push_back(stored.written_time(frame));
   sizes_.clear();
   same_particles_ = true;
   shown_ = false;
@@ -99,7 +103,8 @@ void RunFrames::write() {
   file_->write(simulation_.step(), simulation_.time(),
                std::vector<AnyEnsemble const*>(ensembles.begin(), ensembles.end()),
                edges_of(simulation_.schemes().front()->box()));
-  times_.push_back(simulation_.time());
+  auto const options = this->options();
+  times_.push_back((options.factor ? options.factor(dimensions::time) : 1) * simulation_.time());  // as in the file
   if (sizes_.empty()) sizes_ = sizes_of(ensembles);
   if (same_particles_ && sizes_ != sizes_of(ensembles)) {
     same_particles_ = false;

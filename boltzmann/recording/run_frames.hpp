@@ -52,7 +52,7 @@ class RunFrames {
   // Until a stored file is opened: the step, number and checksum of the frames that stay, and the step of the stop.
   std::int64_t stay_until_ = 0, stopped_ = 0;
   std::pair<std::size_t, std::uint64_t> stay_;
-  std::vector<double> times_;                   // of all frames
+  std::vector<double> times_;                   // of all frames, as written
   std::vector<std::size_t> sizes_;              // of ensembles, in the first one
   bool same_particles_ = true, shown_ = false;  // in all; since the file was begun, or gone on with
 };

@@ -220,9 +220,12 @@ class ClassReader {
         "internal_energy", "specific_energy", "temperature", "density",   "range",    "pressure",
         "sound_speed",     "vorticity",       "core",        "viscosity", "anchor",   "stress",
         "damage",          "plastic_strain",  "sheet",       "position",  "velocity", "mass"};
+    static std::vector<std::string> const of_files{"box", "count", "id", "species"};
     std::string why;
     if (!is_formula_name(name))
       why = "letters, digits and _ make the name of a field";
+    else if (is_one_of(name, of_files))
+      why = "trajectories need this name for themselves";
     else if (particles_ && particles_->find_field(name))
       why = fmt::format("class {} has one already, with its own meaning", told_.base);
     else if (is_one_of(name, of_classes))

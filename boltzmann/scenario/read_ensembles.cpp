@@ -1,4 +1,5 @@
 // Reads [[ensembles]]: which particles there are, and in what state.
+#include <boltzmann/files/trajectory.hpp>
 #include <boltzmann/loaders/internal_energy_load.hpp>
 #include <boltzmann/loaders/random_load.hpp>
 #include <boltzmann/loaders/sinusoidal_load.hpp>
@@ -97,7 +98,10 @@ class EnsembleReader {
     ensemble_.name = options_.name;
     ensemble_.molecules.length = options_.molecule;
     if (Item const* item = section_.item("name"); item && item->is(Item::Kind::text)) {
-      if (item->text.empty()) mistake(item->place, "name: an ensemble needs a name, not an empty text");
+      if (item->text.empty())
+        mistake(item->place, "name: an ensemble needs a name, not an empty text");
+      else
+        catch_errors(reading_, item->place, [&] { check_stored_name("name: an ensemble", item->text); });
       for (auto const& other : reading_.ensembles)
         if (other.name == item->text && !item->text.empty())
           mistake(item->place, fmt::format("name: there is an ensemble '{}' already, in line {}; names must differ",

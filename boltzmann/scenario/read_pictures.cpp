@@ -132,6 +132,7 @@ void read_picture(Item const& table, Reading& reading) {
       reading.mistake(section.place("file"),
                       fmt::format("file: there is a picture '{}' already; names must differ", plan.file));
   if (reading.context.mistakes.count() == before && all_loaded(reading)) check_plan(section, plan, reading);
+  if (plan.trace) reading.track_places.push_back(section.place("trace"));
   reading.result->output.pictures.push_back(plan);
 }
 

@@ -163,6 +163,7 @@ struct Reading {
   std::optional<MinimiseOptions> minimisation = {};
   std::vector<std::pair<Scheme*, std::int64_t>> slow = {};  ///< and every how many steps they are calculated
   std::vector<Place> diagnosis_places = {};                 ///< of each in the result
+  std::vector<Place> track_places = {};                     ///< of pictures that show tracks
   bool diagnoses_known = true;  ///< false: one could not be read, so that columns may be missing
   Recorded recorded = {};
   std::vector<std::function<void(Simulation&)>> adaptations = {};   ///< what changes particles between steps

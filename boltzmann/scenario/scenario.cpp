@@ -1,5 +1,6 @@
 // From the text of a scenario to a simulation: the tables in order, every mistake in one go.
 #include <boltzmann/core/input_file.hpp>
+#include <boltzmann/pictures/picture.hpp>
 #include <boltzmann/scenario/reading.hpp>
 #include <boltzmann/scenario/scenario.hpp>
 #include <boltzmann/scenario/schemes.hpp>
@@ -103,6 +104,8 @@ void check_simulation(Reading& reading) {
   ScenarioSimulation const& result = *reading.result;
   try {
     result.simulation->check();
+    for (auto const& place : reading.track_places)
+      catch_errors(reading, place, [&] { check_tracks(*result.simulation); });
     auto const lines = refusals(*result.simulation, result.diagnoses);
     for (std::size_t d = 0; d < lines.size(); ++d)
       if (!lines[d].empty()) reading.mistake(reading.diagnosis_places[d], lines[d]);

@@ -37,6 +37,12 @@ Division::Carried influences_on(AnyEnsemble& ensemble) {
   return all;
 }
 
+/// When a step ends: exactly when the next one begins. Influences that are calculated there hold for the next step, and a
+/// run that goes on from there calculates them again at the time of its first step.
+double end_of_step(double base_time, std::int64_t steps_before, double step_size, double dt) {
+  return base_time + static_cast<double>(steps_before + ((dt > 0) == (step_size > 0) ? 1 : -1)) * step_size;
+}
+
 }  // namespace
 
 void Simulation::move_walls(double time) {
@@ -96,13 +102,14 @@ void Simulation::advance(double dt, std::vector<Dissipation*> const& dissipation
     advance_in_substeps(dt);
   else
     advance(time(), dt);
-  StepContext const context{dt, static_cast<std::uint64_t>(step_), seed_, time() + dt};
-  if (!dissipations.empty()) calculate(time() + dt, step_ + (dt > 0 ? 1 : -1));
+  double const end = end_of_step(base_time_, step_ - base_step_, step_size_, dt);
+  StepContext const context{dt, static_cast<std::uint64_t>(step_), seed_, end};
+  if (!dissipations.empty()) calculate(end, step_ + (dt > 0 ? 1 : -1));
   for (auto* dissipation : dissipations) {
     dissipation->advance(context);
     if (division_) division_->moved();
   }
-  if (!dissipations.empty() && velocity_forces_.any()) velocity_forces_.refresh(time() + dt);
+  if (!dissipations.empty() && velocity_forces_.any()) velocity_forces_.refresh(end);
   // Whoever looks may need other lists: who gets particles by them gets what they go on with.
   if (is_divided())
     division_->carry([this](AnyEnsemble const& of) {
@@ -122,11 +129,17 @@ void Simulation::advance(double dt, std::vector<Dissipation*> const& dissipation
 void Simulation::advance(double start, double dt) {
   StepContext const context{dt, static_cast<std::uint64_t>(step_), seed_};
   double passed = 0;
+  // Of a substep that is not the last one the end is elsewhere.
+  double const whole_end = end_of_step(base_time_, step_ - base_step_, step_size_, dt), own_end = start + dt;
+  double const rounding = 4 * std::numeric_limits<double>::epsilon() * (std::abs(start) + std::abs(whole_end));
+  auto const moment = [&](double part) {
+    return part != 1 ? start + part * dt : std::abs(own_end - whole_end) <= rounding ? whole_end : own_end;
+  };
   int const threads = schemes_.front()->threads();
   bool const solves = velocity_forces_.any();
   for (int stage = 0; stage < stages_; ++stage) {
     in_second_kick_ = solves && stage == 1;
-    calculate(start + passed * dt, passed == 1 ? step_ + (dt > 0 ? 1 : -1) : step_);
+    calculate(moment(passed), passed == 1 ? step_ + (dt > 0 ? 1 : -1) : step_);
     auto const advance_part = [&](Part& part) {
       if (stage >= part.stages) return;
       bool const drifts = solves && stage == 0 && is_leap_frog(part);
@@ -138,14 +151,14 @@ void Simulation::advance(double start, double dt) {
       influences_.outdated();
       passed = part.time_after[stage];
       if (motion != Motion::final) return;
-      move_walls(start + passed * dt);
+      move_walls(moment(passed));
       keep_in_box(part);
     };
     // Particles that leap-frog advances have their final velocities before others move on.
     for (auto& part : parts_)
       if (!in_second_kick_ || (is_leap_frog(part) && !velocity_forces_.kicks(*part.ensemble))) advance_part(part);
     if (std::exchange(in_second_kick_, false)) {
-      velocity_forces_.second_kick(stage, context, start + dt, is_divided() ? division_.get() : nullptr, threads);
+      velocity_forces_.second_kick(stage, context, moment(1), is_divided() ? division_.get() : nullptr, threads);
       for (auto& part : parts_)
         if (!is_leap_frog(part)) advance_part(part);
     }
@@ -226,7 +239,8 @@ StretchedSystem Simulation::stretched_system() {
 
 /// After a step that is done but not counted yet.
 void Simulation::stretch_box(double dt) {
-  StepContext const context{dt, static_cast<std::uint64_t>(step_), seed_, time() + dt};
+  double const end = end_of_step(base_time_, step_ - base_step_, step_size_, dt);
+  StepContext const context{dt, static_cast<std::uint64_t>(step_), seed_, end};
   for (auto const& barostat : barostats_) {
     if ((step_ + 1) % barostat->every() != 0) continue;
     if (is_divided()) gather_particles();  // all ranks stretch all
@@ -252,7 +266,7 @@ void Simulation::advance_by_gauss_radau(double dt) {
     double const rest = dt - passed, size = gauss_radau_.step(rest, schemes_.front()->threads(), influences);
     passed = size == rest ? dt : passed + size;
     influences_.outdated();
-    move_walls(start + passed);
+    move_walls(passed == dt ? end_of_step(base_time_, step_ - base_step_, step_size_, dt) : start + passed);
     for (auto& part : parts_) keep_in_box(part);
   }
 }
@@ -262,9 +276,8 @@ void Simulation::advance_by_gauss_radau(double dt) {
 void Simulation::advance_in_substeps(double dt) {
   constexpr std::uint64_t whole = std::uint64_t{1} << 40;
   double const start = time(), unit = dt / static_cast<double>(whole);
-  auto const moment = [&](std::uint64_t at) {
-    return at == whole ? start + dt : start + static_cast<double>(at) * unit;
-  };
+  double const end = end_of_step(base_time_, step_ - base_step_, step_size_, dt);
+  auto const moment = [&](std::uint64_t at) { return at == whole ? end : start + static_cast<double>(at) * unit; };
   auto const longer = [&](std::uint64_t size, double allowed) {
     return std::abs(static_cast<double>(size) * unit) > allowed;
   };

@@ -2,6 +2,7 @@
 #include <boltzmann/core/exact_sum.hpp>
 #include <boltzmann/core/team.hpp>
 #include <boltzmann/schemes/after_others.hpp>
+#include <boltzmann/schemes/restored_influences.hpp>
 #include <boltzmann/simulation/conserved.hpp>
 #include <boltzmann/simulation/keeps_numbers.hpp>
 #include <boltzmann/simulation/run_votes.hpp>
@@ -686,6 +687,9 @@ void Simulation::restore(std::int64_t step, double step_size, std::uint64_t seed
       std::copy_n(state.begin() + static_cast<std::ptrdiff_t>(at), count, part.ensemble->influences().begin());
       at += count;
     }
+  if (with_influences)
+    for (auto* scheme : schemes_)
+      if (auto* counts = dynamic_cast<RestoredInfluences*>(scheme)) counts->influences_restored();
   for (auto const& change : changes_) change.adaptation->restore(next());
   if (!gauss_radau_.parts().empty()) gauss_radau_.restore(next());
   if (at != state.size())

@@ -6,6 +6,7 @@
 #include <unistd.h>
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/team.hpp>
+#include <boltzmann/files/folder_lock.hpp>
 #include <boltzmann/window/address_file.hpp>
 
 #include <fmt/format.h>
@@ -59,6 +60,7 @@ AddressFile::AddressFile(std::string folder, std::string address)
     : path_(path_in(folder)), address_(std::move(address)) {
   std::error_code ignored;
   std::filesystem::create_directories(folder, ignored);
+  own_window_file(folder);
   std::filesystem::remove(path_, ignored);
   int const file = open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
   if (file < 0) return;  // the run itself will say what is wrong with the folder

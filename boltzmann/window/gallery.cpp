@@ -216,6 +216,23 @@ bool is_plain_folder(std::string_view path) {
   }
 }
 
+/// Why results can't go into `out` below the folder; empty if they can. Links are followed if they stay below it.
+std::string wrong_place(fs::path const& folder, std::string const& out) {
+  std::error_code failure;
+  fs::path const root = fs::canonical(folder, failure);
+  fs::path at = folder;
+  for (auto const& name : fs::path(out)) {
+    at /= name;
+    if (!fs::exists(fs::symlink_status(at, failure))) return "";
+    fs::path const there = fs::canonical(at, failure);
+    if (failure) return fmt::format("'{}' is a link that leads nowhere", at.lexically_normal().string());
+    if (std::mismatch(root.begin(), root.end(), there.begin(), there.end()).first != root.end())
+      return fmt::format("'{}' is a link that leads out of the present folder", at.lexically_normal().string());
+    if (!fs::is_directory(there, failure)) return fmt::format("'{}' is a file", at.lexically_normal().string());
+  }
+  return "";
+}
+
 json picture_of(std::string const& name) {
   std::error_code failure;
   if (!fs::is_regular_file(fs::path(gallery_folder()) / (name + ".png"), failure)) return nullptr;
@@ -322,6 +339,8 @@ json Gallery::check_run(std::string const& name, json const& set, std::string co
         fmt::format("'{}' is no folder for results; it is below the present one, of names of letters, digits, blanks "
                     "and - _ + , .",
                     out));
+  if (std::string const wrong = wrong_place(folder_, out); !wrong.empty())
+    return refusal(fmt::format("results can't go into '{}': {}; choose another folder", out, wrong));
   return check(name, set);
 }
 

@@ -370,7 +370,7 @@ void LiveRun::run(std::uint64_t steps) {
       : state.options.play
           ? 0
           : std::max<std::int64_t>(1, static_cast<std::int64_t>(static_cast<double>(steps) / usual_frames)));
-  if (state.options.play) state.wanted.command = Command::play;
+  if (state.options.play && steps > 0) state.wanted.command = Command::play;  // a run at its last step stays there
   state.clients.open(*this);
   for (Deed deed = state.together(); deed.what != Deed::end; deed = state.together()) state.perform(deed);
   state.wanted.quit = true;

@@ -47,6 +47,8 @@ using Acceptor = asio::basic_socket_acceptor<tcp, Executor>;
 
 // A closed connection may still say so much.
 constexpr std::size_t close_bytes = 1U << 18U;
+// The part of handshake_seconds that a stranger has for certain to send its request.
+constexpr double least_handshake = 0.02;
 // At the end of the server, all browsers together.
 constexpr double end_seconds = 0.1;
 
@@ -72,7 +74,7 @@ struct Server {
   std::string token;
   asio::io_context context{1};
   Acceptor acceptor{context};
-  Timer pause{context};     // before the next accept, where the last one failed
+  Timer pause{context};     // before the next accept, where the last one failed or there is no place
   Timer patience{context};  // with the last browsers, at the end
   bool ending = false;
   std::list<std::shared_ptr<Connection>> visitors;  // in the order in which they came
@@ -83,6 +85,7 @@ struct Server {
 
   void listen(std::uint16_t wanted);
   void accept();
+  void accept_after(double seconds);
   void welcome(Socket socket);
   void forget(Connection const* visitor);
   void forget(std::uint64_t browser);
@@ -277,32 +280,42 @@ void Server::listen(std::uint16_t wanted) {
 void Server::accept() {
   acceptor.async_accept([this](error_code error, Socket socket) {
     if (ending) return;
-    if (!error) {
-      welcome(std::move(socket));
-      return accept();
-    }
-    // Too many open files, for one: others may close some.
-    pause.expires_after(clock_time(0.1));
-    pause.async_wait([this](error_code) {
-      if (!ending) accept();
-    });
+    if (error) return accept_after(0.1);  // too many open files, for one: others may close some
+    welcome(std::move(socket));
   });
 }
 
-/// At most half of the places are for strangers, who have not shown the token; they have a tenth of the handshake's
-/// time for certain, and more as long as nobody else wants their place. So strangers who keep silent can't lock out a
-/// browser.
+/// Meanwhile the system keeps those that connect in its queue.
+void Server::accept_after(double seconds) {
+  pause.expires_after(clock_time(seconds));
+  pause.async_wait([this](error_code) {
+    if (!ending) accept();
+  });
+}
+
+/// At most half of the places are for strangers, which have not shown the token. The stranger that came first makes room
+/// for the next one, but not before it has had the time to send its request; until then nothing more is accepted. So
+/// connections that keep silent cannot lock out a browser, which sends its request at once.
 void Server::welcome(Socket socket) {
   ::fcntl(socket.native_handle(), F_SETFD, FD_CLOEXEC);
   error_code ignored;
   socket.set_option(tcp::no_delay(true), ignored);
   auto const is_stranger = [](auto const& visitor) { return !visitor->known(); };
   auto const strangers = static_cast<std::size_t>(std::count_if(visitors.begin(), visitors.end(), is_stranger));
-  if (strangers >= std::max<std::size_t>(limits.connections / 2, 1) ||
-      visitors.size() + browsers.size() >= limits.connections) {
+  bool const full = visitors.size() + browsers.size() >= limits.connections;
+  if (full || strangers >= std::max<std::size_t>(limits.connections / 2, 1)) {
     auto const oldest = std::find_if(visitors.begin(), visitors.end(), is_stranger);
-    if (oldest == visitors.end() || Clock::now() - (*oldest)->since() < clock_time(limits.handshake_seconds / 10)) {
-      return reject(socket);
+    if (oldest == visitors.end()) {  // all places are in use
+      reject(socket);
+      return accept();
+    }
+    double const left = limits.handshake_seconds * least_handshake - seconds_since((*oldest)->since());
+    if (left > 0) {
+      pause.expires_after(clock_time(left));
+      pause.async_wait([this, held = std::make_shared<Socket>(std::move(socket))](error_code) {
+        if (!ending) welcome(std::move(*held));
+      });
+      return;
     }
     auto const leaver = *oldest;
     leaver->evict();
@@ -310,6 +323,7 @@ void Server::welcome(Socket socket) {
   auto const visitor = std::make_shared<Connection>(*this, std::move(socket));
   visitors.push_back(visitor);
   visitor->begin();
+  accept();
 }
 
 void Server::forget(Connection const* visitor) {

@@ -54,9 +54,11 @@ struct WebEvents {
 std::string random_token();
 
 struct WebLimits {
-  /// Sockets and requests at a time; more are refused with 503. Sockets have three quarters of them; who wants one more
-  /// gets that of the browser that has been silent for longest, if that is more than handshake_seconds.
-  std::size_t connections = 32;
+  /// Sockets and requests at a time. Sockets (open pages) have three quarters of the places; one more page gets the place
+  /// of the browser that has been silent for longest, if that is more than handshake_seconds, and is refused with 503
+  /// otherwise. Connections that have not shown the token have half of the places; the oldest of them makes room for the
+  /// next one.
+  std::size_t connections = 512;
   std::size_t request_bytes = 16'384;                  ///< of a request's head; it has no body
   std::size_t message_bytes = 262'144;                 ///< of a message from a browser
   std::size_t waiting_bytes = std::size_t{256} << 20;  ///< of messages not yet sent to one browser; above, it is let go

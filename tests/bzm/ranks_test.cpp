@@ -4,6 +4,7 @@
 #include "tests/bzm/same_run.hpp"
 
 #include <chrono>
+#include <optional>
 #include <sstream>
 
 namespace boltzmann::ranks_test {
@@ -155,6 +156,127 @@ TEST_F(Ranks, ARankThatDoesNotComeEndsTheRun) {
   EXPECT_NE(outcome.status, 0);
   EXPECT_TRUE(has(outcome.err, "has waited 1 s for others")) << outcome.err;
   EXPECT_LT(seconds_since(since), 30) << "of some 3";
+}
+
+/// A launcher in the folder "launcher" that starts the real one and forwards no signal.
+struct DeafLauncher {
+  explicit DeafLauncher(Folder const& folder) {
+    std::string const path = std::getenv("PATH");
+    std::string real;
+    for (std::size_t at = 0; at < path.size() && real.empty(); at = std::min(path.find(':', at), path.size()) + 1)
+      if (auto const one = path.substr(at, path.find(':', at) - at) + "/mpirun"; fs::exists(one)) real = one;
+    fs::create_directory(folder / "launcher");
+    write_text(folder / "launcher/mpirun", "#!/bin/sh\ncase $1 in --version) exec " + real +
+                                               " --version;; esac\ntrap '' INT TERM HUP USR1 USR2\n" + real +
+                                               " \"$@\" &\nwait $!\n");
+    fs::permissions(folder / "launcher/mpirun", fs::perms::owner_all);
+    environment.set("PATH", (folder / "launcher").string() + ":" + path);
+  }
+  Environment environment;
+};
+
+// Kind: a stop that depends on what another program hands on. Siblings: each signal that stops a run, a launcher that
+// forwards all, some or none of them, one rank that is signalled, ranks that a user has started with mpirun.
+TEST_F(Ranks, EverySignalStopsARunUnderAnyLauncher) {
+  for (bool const deaf : {false, true}) {
+    std::optional<DeafLauncher> launcher;
+    if (deaf) launcher.emplace(folder);
+    for (int const signal : {SIGINT, SIGTERM, SIGHUP}) {
+      std::string const out = "run-" + std::to_string(signal) + (deaf ? "-deaf" : "");
+      SCOPED_TRACE(out);
+      Process going(bzm_words(endless(out)), folder.string());
+      ASSERT_TRUE(begun(going, out)) << going.wait().err;
+      auto const since = std::chrono::steady_clock::now();
+      going.signal(signal);
+      auto const outcome = going.wait();
+      EXPECT_LT(seconds_since(since), 10);
+      EXPECT_EQ(outcome.status, 130) << outcome.err;
+      EXPECT_EQ(lines_in(outcome.err), 1U) << outcome.err;
+      EXPECT_TRUE(has(outcome.err, "stopped by a signal after step " + std::to_string(checkpoint_step(folder / out))))
+          << outcome.err;
+      EXPECT_TRUE(ranks(out).empty());
+    }
+  }
+}
+
+TEST_F(Ranks, ASecondSignalEndsAllAtOnceAlsoBehindALauncherThatForwardsNone) {
+  DeafLauncher const launcher(folder);
+  // A step of some seconds.
+  std::vector<std::string> const plan{"run",     "plummer",   "--set", "ensembles.stars.number=60000",
+                                      "--set",   "output={}", "--out", "run",
+                                      "--quiet", "--ranks",   "2"};
+  Process going(bzm_words(plan), folder.string());
+  ASSERT_TRUE(going.wait_until([&] { return ranks("run").size() == 2; })) << going.wait().err;
+  auto const since = std::chrono::steady_clock::now();
+  going.signal(SIGINT);
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  going.signal(SIGINT);
+  EXPECT_EQ(going.wait().status, 130);
+  EXPECT_LT(seconds_since(since), 5);
+  EXPECT_TRUE(ranks("run").empty());
+}
+
+TEST_F(Ranks, StartedByMpirunStopWhenOneOfThemOrTheLauncherIsSignalled) {
+  auto words = endless("one");
+  words.resize(words.size() - 2);
+  std::string line = "exec mpirun --oversubscribe -n 3";
+  for (auto const& word : bzm_words(words)) line += " " + word;
+  {
+    Process going({"/bin/sh", "-c", line}, folder.string());
+    ASSERT_TRUE(begun(going, "one")) << going.wait().err;
+    auto const all = ranks("one");
+    ASSERT_EQ(all.size(), 3U);
+    kill(all[1], SIGTERM);
+    auto const outcome = going.wait();
+    EXPECT_EQ(outcome.status, 130) << outcome.err;
+    EXPECT_TRUE(has(outcome.err, "stopped by a signal after step " + std::to_string(checkpoint_step(folder / "one"))))
+        << outcome.err;
+  }
+  // mpirun sends SIGTERM to its ranks, and SIGKILL two seconds later; the status is its own.
+  line.replace(line.find("--out one"), 9, "--out all");
+  line.replace(line.find("output.checkpoint=200"), 21, "output.checkpoint=100000000");
+  Process going({"/bin/sh", "-c", line}, folder.string());
+  ASSERT_TRUE(going.wait_until([&] { return lines_in(text_of(folder / "all/diagnoses.csv")) > 2; }))
+      << going.wait().err;
+  going.signal(SIGINT);
+  EXPECT_NE(going.wait().status, 0);
+  EXPECT_GT(checkpoint_step(folder / "all"), 0) << "not the checkpoint of the start";
+}
+
+// Kind: ranks that do different things. Siblings: another folder, scenario, option or command on one of them, another
+// program that is no rank of ours.
+TEST_F(Ranks, StartedWithDifferentCommandsAreRefused) {
+  std::string const bzm = bzm_words({})[0], run = bzm + " run three-body --steps 10 --quiet --out ";
+  for (auto const& [one, other] : {std::pair{run + "a", run + "b"},
+                                   {run + "a", run + "a --seed 2"},
+                                   {run + "a", bzm + " check three-body"},
+                                   {bzm + " check three-body", run + "a"},
+                                   {run + "a", bzm + " run two-stream --quiet --out a"}}) {
+    auto const since = std::chrono::steady_clock::now();
+    auto const outcome =
+        Process({"/bin/sh", "-c", "exec mpirun --quiet --oversubscribe -n 1 " + one + " : -n 1 " + other},
+                folder.string())
+            .wait();
+    EXPECT_EQ(outcome.status, 2) << other;
+    for (auto const& command : {one, other})
+      EXPECT_TRUE(has(outcome.err, "'bzm " + command.substr(bzm.size() + 1) + "'")) << outcome.err;
+    EXPECT_TRUE(has(outcome.err, "; all ranks need the same command (only --threads may differ)\n")) << outcome.err;
+    EXPECT_LT(seconds_since(since), 20);
+    EXPECT_FALSE(fs::exists(folder / "a"));
+  }
+  auto const same =
+      Process({"/bin/sh", "-c",
+               "exec mpirun --quiet --oversubscribe -n 1 " + run + "a --threads 1 : -n 1 " + run + "a --threads 2"},
+              folder.string())
+          .wait();
+  EXPECT_EQ(same.status, 0) << same.err;
+  environment.set("BOLTZMANN_PATIENCE", "1");
+  auto const foreign =
+      Process({"/bin/sh", "-c", "exec mpirun --quiet --oversubscribe -n 1 " + run + "c : -n 1 sleep 60"},
+              folder.string())
+          .wait();
+  EXPECT_NE(foreign.status, 0);
+  EXPECT_TRUE(has(foreign.err, "rank 0 has waited 1 s for the other processes of this launch to join")) << foreign.err;
 }
 
 TEST_F(Ranks, ASignalFinishesTheStepAndAnyNumberOfRanksGoesOn) {

@@ -249,6 +249,20 @@ TEST_F(GalleryTest, ResultsGoBelowThePresentFolder) {
         << out;
   EXPECT_TRUE(gallery.check_run("copper", {}, std::string("a\0b", 3)).contains("error"));
   EXPECT_TRUE(gallery.check_run("copper", {{"run.step", "0"}}, "results").contains("errors"));
+  // Kind: a name from outside that leads elsewhere. Siblings: files, links to folders and files, and those that lead nowhere.
+  put("notes.txt", "mine");
+  fs::create_directories(folder / "inside/deep");
+  fs::create_directory_symlink(folder / "inside", folder / "near");
+  fs::create_directory_symlink(fs::temp_directory_path(), folder / "far");
+  fs::create_directory_symlink("../..", folder / "inside/up");
+  fs::create_symlink(folder / "nowhere", folder / "lost");
+  for (std::string const out :
+       {"notes.txt", "notes.txt/x", "far", "far/x", "inside/up", "inside/up/x/y", "lost", "lost/x"})
+    EXPECT_EQ(gallery.check_run("copper", {}, out).value("error", "").rfind("results can't go into '" + out + "': ", 0),
+              0U)
+        << out << gallery.check_run("copper", {}, out).dump();
+  for (std::string const out : {"near", "near/x", "inside", "inside/deep/x"})
+    EXPECT_TRUE(gallery.check_run("copper", {}, out).contains("ok")) << out;
   // No picture in place of a file.
   for (std::string const file : {"checkpoint.h5\\u0000.png", "../picture.png", "a\\u001b.png"})
     EXPECT_TRUE(gallery.check_run("copper", {{"output.pictures.0.file", "\"" + file + "\""}}, "").contains("errors"))

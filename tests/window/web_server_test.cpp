@@ -432,36 +432,44 @@ TEST(WebServer, a_message_over_the_limit_closes_and_one_at_it_does_not) {
   house.expect_all_well("messages over the limit");
 }
 
-TEST(WebServer, a_hundred_silent_connections_lock_nobody_out) {
+// Kind: a service that refuses its user because of others that do nothing. Siblings: sockets that are silent from the
+// start, that send half of a request, that come in a crowd or again and again while pages are asked for.
+TEST(WebServer, silent_connections_never_make_a_page_fail) {
   WebLimits limits;
+  limits.connections = 32;
   limits.handshake_seconds = 3;
   House house(limits);
   auto [browser, id] = house.visit();
-  std::vector<WebConnection> silent;
-  for (int i = 0; i < 100; ++i) silent.emplace_back(house.port());
-  // Who came first has a place for a while, who came too late is told at once.
-  int refused = 0;
-  for (auto& connection : silent) {
-    connection.patience = 0.01;
-    if (connection.read_until("\r\n").starts_with("HTTP/1.1 503")) ++refused;
+  for (std::string const& half : {std::string(), std::string("GET /?tok")}) {
+    std::vector<std::unique_ptr<WebConnection>> silent;
+    auto const start = Clock::now();
+    for (int i = 0; i < 30; ++i) {
+      for (int k = 0; k < 5; ++k) {
+        silent.push_back(std::make_unique<WebConnection>(house.port()));
+        silent.back()->write(half);
+      }
+      ASSERT_EQ(get(house.port(), std::string("/?token=") + token).status, 200) << i;
+    }
+    EXPECT_LT(seconds_since(start), 10) << "of at most 0.06 s for every 16 of them";
+    browser.say("still here");
+    EXPECT_EQ(browser.hear(), "heard: still here");
+    house.expect_all_well("150 silent connections");
+    auto const end = Clock::now();
+    for (auto& connection : silent) EXPECT_TRUE(connection->closed_within(10));
+    EXPECT_LT(seconds_since(end), 4.5);
   }
-  EXPECT_GE(refused, 100 - 16);
-  browser.say("still here");
-  EXPECT_EQ(browser.hear(), "heard: still here");
-  // The silent ones are still there, but after 0.3 s they have to make room.
-  std::this_thread::sleep_for(300ms);
-  house.expect_all_well("a hundred connections");
-  auto const start = Clock::now();
-  for (auto& connection : silent) EXPECT_TRUE(connection.closed_within(10));
-  EXPECT_LT(seconds_since(start), 4.5);
-  house.expect_all_well("a hundred connections that have been closed");
+  house.expect_all_well("silent connections that have been closed");
 }
 
-TEST(WebServer, a_hundred_browsers_are_as_many_as_allowed) {
-  House house;
+// As many watchers of a run as the documented limit says, and a plain refusal above it.
+TEST(WebServer, hundreds_of_browsers_are_served_up_to_the_limit) {
+  WebLimits limits;
+  EXPECT_EQ(limits.connections, 512U) << "and so 384 in docs/guide/window.md";
+  limits.connections = 320;
+  House house(limits);
   std::vector<WebSocketClient> browsers;
   int refused = 0;
-  for (int i = 0; i < 100; ++i) {
+  for (int i = 0; i < 260; ++i) {
     try {
       browsers.emplace_back(house.port(), token);
     } catch (std::runtime_error const& error) {
@@ -469,8 +477,8 @@ TEST(WebServer, a_hundred_browsers_are_as_many_as_allowed) {
       ++refused;
     }
   }
-  EXPECT_EQ(browsers.size(), 24U);
-  EXPECT_EQ(refused, 76);
+  EXPECT_EQ(browsers.size(), 240U);
+  EXPECT_EQ(refused, 20);
   for (auto& browser : browsers) {
     ASSERT_TRUE(browser.say("one of many"));
     ASSERT_EQ(browser.hear(), "heard: one of many");
@@ -478,7 +486,7 @@ TEST(WebServer, a_hundred_browsers_are_as_many_as_allowed) {
   browsers.pop_back();
   browsers.pop_back();
   EXPECT_TRUE(house.soon([&] { return house.left.size() == 2; }));
-  house.expect_all_well("a hundred browsers");
+  house.expect_all_well("hundreds of browsers");
 }
 
 TEST(WebServer, half_open_connections_are_closed_in_time) {

@@ -442,22 +442,27 @@ std::string MultipoleScheme::report() const {
       static_cast<double>(last_->pairs));
 }
 
-/// Where particles are those of the last influences, whoever goes on from here calculates these once more.
+/// If particles are those of the last influences, a run that goes on from here calculates these once more, unless the
+/// influences are part of the checkpoint.
 std::vector<double> MultipoleScheme::state() const {
-  std::size_t again = 0;
+  double again = 0;
   if (counted_ != 0) {
     engine_->collect(loaded_, background_, threads());
     again = engine_->checksum() == counted_ ? 1 : 0;
   }
-  return {criterion_, measured_, static_cast<double>(order_), static_cast<double>(until_check_ + again)};
+  return {criterion_, measured_, static_cast<double>(order_), static_cast<double>(until_check_), again};
 }
 
 void MultipoleScheme::restore(std::span<double const> state) {
-  if (state.size() != 4)
-    throw Error(fmt::format("multipoles: the state of a checkpoint has 4 numbers, not {}", state.size()));
+  if (state.size() != 4 && state.size() != 5)  // 4: until version 902, with the repeated calculation in the count
+    throw Error(fmt::format("multipoles: the state of a checkpoint has 5 numbers, not {}", state.size()));
   criterion_ = state[0], measured_ = state[1];
-  order_ = static_cast<int>(state[2]), until_check_ = static_cast<std::size_t>(state[3]);
+  order_ = static_cast<int>(state[2]);
+  repeated_ = state.size() == 5 && state[4] != 0 ? 1 : 0;
+  until_check_ = static_cast<std::size_t>(state[3]) + repeated_;
   counted_ = 0;
 }
+
+void MultipoleScheme::influences_restored() { until_check_ -= std::exchange(repeated_, 0); }
 
 }  // namespace boltzmann

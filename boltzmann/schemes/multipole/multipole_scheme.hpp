@@ -10,6 +10,7 @@
 #include <boltzmann/laws/vortex.hpp>
 #include <boltzmann/particles/ensemble.hpp>
 #include <boltzmann/schemes/mesh/mesh_field.hpp>
+#include <boltzmann/schemes/restored_influences.hpp>
 #include <boltzmann/schemes/scheme.hpp>
 #include <boltzmann/schemes/source_kind.hpp>
 
@@ -33,7 +34,7 @@ struct MultipoleAccuracy {
   std::size_t nodes = 0, translations = 0, pairs = 0;  ///< of the last calculation
 };
 
-class MultipoleScheme final : public Scheme {
+class MultipoleScheme final : public Scheme, public RestoredInfluences {
  public:
   /// `tolerance`: the error of influences, sqrt(sum |error|^2 / sum |influence|^2) over all particles (those in the
   /// second sum without the fiftieth that feels most, so that a close pair does not count for all). What the expansions
@@ -128,6 +129,7 @@ class MultipoleScheme final : public Scheme {
   std::string report() const override;
   std::vector<double> state() const override;
   void restore(std::span<double const> state) override;
+  void influences_restored() override;
 
  private:
   MultipoleScheme(Box box, double tolerance, std::optional<LaplaceLaw> law);
@@ -164,6 +166,7 @@ class MultipoleScheme final : public Scheme {
   double measured_ = 0;
   int order_ = 0;  // 0: not chosen yet
   std::size_t until_check_ = 0;
+  std::size_t repeated_ = 0;               // calculations that a resumed run does again
   std::uint64_t counted_ = 0;              // the checksum of the last influences' particles, if they counted for that
   std::optional<MultipoleAccuracy> last_;  // of the last influences
   bool background_ = false;
