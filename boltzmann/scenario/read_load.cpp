@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <stdexcept>
 #include <utility>
 
@@ -498,6 +499,67 @@ double Loader::read_file() {
   catch_errors(reading_, section_.place(section_.has("species") ? "species" : "path"),
                [&] { count = static_cast<double>(count_species(frame_, options_.species)); });
   return count;
+}
+
+std::string Loader::file_name() const { return std::filesystem::path(options_.path).filename().string(); }
+
+bool Loader::sets(std::string_view field) const {
+  if (!kind_) return false;
+  if (kind_->name == "file") return frame_.find(field) != nullptr;
+  if (kind_->name == "frame") return true;
+  return field == "mass" && (kind_->name == "plummer-sphere" || kind_->name == "disc");
+}
+
+std::vector<double> Loader::element_masses() const {
+  return boltzmann::element_masses(frame_, options_.species, reading_.context.units);
+}
+
+/// Where neither the file nor the scenario says what its numbers are in. Positions in angstrom are what XYZ has.
+std::string Loader::assumed_units(AnyEnsemble const& particles, std::vector<std::string> const& given) const {
+  UnitSystem const& units = reading_.context.units;
+  if (units.is_reduced() || !reading_.base_known || !options_.units.empty()) return "";
+  std::vector<std::string> assumed;
+  for (auto const& [name, dimension] : {std::pair<char const*, Dimension>{"position", dimensions::length},
+                                        {"velocity", dimensions::velocity},
+                                        {"mass", dimensions::mass},
+                                        {"charge", dimensions::charge}}) {
+    auto const* column = frame_.find(name);
+    if (!column || !column->unit.empty() || !particles.find_field(name)) continue;
+    if (std::find(given.begin(), given.end(), name) != given.end()) continue;
+    if ((options_.length && dimension == dimensions::length) ||
+        (options_.velocity && dimension == dimensions::velocity))
+      continue;
+    auto const base = units.display(dimension);
+    std::string const text = base.factor == 1 ? base.unit : units.text(1, dimension, 6);
+    bool const usual = dimension == dimensions::length && text == "angstrom";
+    if (!usual) assumed.push_back(fmt::format("{} in {}", name, text));
+  }
+  if (assumed.empty()) return "";
+  return fmt::format("note: '{}': {} has no units, and is read in those of the base ({}); `units` in load names others",
+                     ensemble_, file_name(), join(assumed));
+}
+
+std::vector<std::string> Loader::notes(AnyEnsemble const& particles, std::vector<std::string> const& given) const {
+  std::vector<std::string> all;
+  if (!reads_file()) return all;
+  auto const aside = left_aside(particles, frame_, given);
+  if (!aside.empty())
+    all.push_back(fmt::format("note: '{}': left aside of {}: {}", ensemble_, file_name(), join(aside, "; ")));
+  if (auto line = assumed_units(particles, given); !line.empty()) all.push_back(std::move(line));
+  auto const* charge = particles.find_field("charge");
+  if (charge && !frame_.find("charge") && std::find(given.begin(), given.end(), "charge") == given.end())
+    all.push_back(fmt::format("note: '{}': {} has no charges, so they are 0; `charge` gives others", ensemble_,
+                              file_name()));
+  return all;
+}
+
+void Loader::count_species_taken() const {
+  if (!reads_file()) return;
+  auto& file = reading_.files[fmt::format("{}, frame {}", file_name(), options_.frame)];
+  if (file.species.empty())
+    for (auto const& word : frame_.species) ++file.species[word].particles;
+  for (auto const& word : words_of_species(frame_, options_.species))
+    if (auto const found = file.species.find(word); found != file.species.end()) ++found->second.ensembles;
 }
 
 double Loader::read_frame() {
