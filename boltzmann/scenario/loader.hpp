@@ -87,6 +87,7 @@ class Loader {
   void load_places(AnyEnsemble& particles);
   double read_file();
   FrameOptions frame_options() const;
+  std::vector<std::string> notes_of_frame(AnyEnsemble const& particles) const;
   std::string assumed_units(AnyEnsemble const& particles, std::vector<std::string> const& given) const;
   void load_file(AnyEnsemble& particles);
   double read_frame();

@@ -1,4 +1,5 @@
 // Reads load = { kind = ... }: where the particles of an ensemble are.
+#include <boltzmann/core/quantity_text.hpp>
 #include <boltzmann/loaders/jitter.hpp>
 #include <boltzmann/loaders/path_load.hpp>
 #include <boltzmann/loaders/plummer_load.hpp>
@@ -501,6 +502,17 @@ double Loader::read_file() {
   return count;
 }
 
+namespace {
+
+/// Whether the edges of a lattice are not those of a box with right angles.
+bool is_skew(std::array<double, 9> const& lattice) {
+  for (std::size_t k = 0; k < 9; ++k)
+    if (k % 4 != 0 && lattice[k] != 0) return true;
+  return false;
+}
+
+}  // namespace
+
 std::string Loader::file_name() const { return std::filesystem::path(options_.path).filename().string(); }
 
 bool Loader::sets(std::string_view field) const {
@@ -539,9 +551,44 @@ std::string Loader::assumed_units(AnyEnsemble const& particles, std::vector<std:
                      ensemble_, file_name(), join(assumed));
 }
 
+/// Of a stored frame: fields that the class does not have, and another box.
+std::vector<std::string> Loader::notes_of_frame(AnyEnsemble const& particles) const {
+  std::vector<std::string> all, unread;
+  auto const& stored = stored_->find(options_.ensemble);
+  for (auto const& field : stored.fields)
+    if (!particles.find_field(field.name)) unread.push_back(field.name);
+  if (!unread.empty())
+    all.push_back(fmt::format("note: '{}': left aside of {}: {} (a class with fields of these names gets them)", ensemble_,
+                              file_name(), join(unread)));
+  bool const in_units = std::any_of(stored.fields.begin(), stored.fields.end(),
+                                    [](auto const& field) { return field.name == "position" && !field.unit.empty(); });
+  if (!in_units && !reading_.context.units.is_reduced())
+    all.push_back(fmt::format("note: '{}': {} has pure numbers, which are read in the units of the base", ensemble_,
+                              file_name()));
+  if (in_units != !reading_.context.units.is_reduced()) return all;
+  auto const before = stored_->box(stored_frame_, TrajectoryReader::Numbers::written);
+  double unit = 1;
+  for (auto const& field : stored.fields)
+    if (field.name == "position" && in_units)
+      unit = reading_.context.units.from_si(parse_quantity("1 " + field.unit).si, dimensions::length);
+  Box const& box = *reading_.box;
+  for (int a = 0; a < std::min(before.dimension, box.dimension()); ++a) {
+    double const length = unit * (before.high[a] - before.low[a]);
+    if (before.periodic[a] && box.periodic(a) && !(std::abs(length - box.length(a)) <= 1e-6 * length))
+      all.push_back(fmt::format("warning: '{}': the box of {} is {} long along {}, this one {}", ensemble_, file_name(),
+                                reading_.context.units.text(length, dimensions::length, 8), "xyz"[a],
+                                reading_.context.units.text(box.length(a), dimensions::length, 8)));
+  }
+  return all;
+}
+
 std::vector<std::string> Loader::notes(AnyEnsemble const& particles, std::vector<std::string> const& given) const {
   std::vector<std::string> all;
+  if (kind_ && kind_->name == "frame" && stored_) return notes_of_frame(particles);
   if (!reads_file()) return all;
+  if (frame_.lattice && is_skew(*frame_.lattice))
+    all.push_back(fmt::format("note: '{}': the box of {} has no right angles; only its atoms are taken", ensemble_,
+                              file_name()));
   auto const aside = left_aside(particles, frame_, given);
   if (!aside.empty())
     all.push_back(fmt::format("note: '{}': left aside of {}: {}", ensemble_, file_name(), join(aside, "; ")));
@@ -584,6 +631,23 @@ double Loader::read_frame() {
   return count;
 }
 
-void Loader::load_frame(AnyEnsemble& particles) { stored_->load(stored_frame_, options_.ensemble, particles); }
+/// Numbers of a run in another base are converted; those of the same base keep their bits.
+void Loader::load_frame(AnyEnsemble& particles) {
+  stored_->load(stored_frame_, options_.ensemble, particles);
+  UnitSystem const& units = reading_.context.units;
+  if (units.is_reduced() || !reading_.base_known) return;
+  for (auto const& stored : stored_->find(options_.ensemble).fields) {
+    Field const* field = particles.find_field(stored.name);
+    if (!field || field->components != stored.components || stored.unit.empty()) continue;
+    auto const unit = parse_quantity("1 " + stored.unit);
+    if (unit.dimension != field->dimension)
+      throw Error(fmt::format("path: '{}' has {} in {}, which is no {}", file_name(), stored.name, stored.unit,
+                              name_of(field->dimension)));
+    double const ratio = stored.factor * units.from_si(unit.si, field->dimension);
+    if (std::abs(ratio - 1) < 1e-9) continue;
+    for (std::size_t i = 0; i < particles.size(); ++i)
+      for (int c = 0; c < field->components; ++c) particles.row(i)[field->offset + c] *= ratio;
+  }
+}
 
 }  // namespace boltzmann

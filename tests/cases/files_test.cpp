@@ -6,7 +6,11 @@
 #include <boltzmann/files/trajectory.hpp>
 #include <boltzmann/loaders/particle_file.hpp>
 
+#include <fmt/format.h>
 #include <zlib.h>
+
+#include <cmath>
+#include <tuple>
 
 namespace boltzmann::files_test {
 namespace {
@@ -292,6 +296,59 @@ TEST(Files, FilesAreKnownByTheirContentAndMayBeCompressed) {
   EXPECT_TRUE(refuses(cut, "is not compressed by gzip"));
   write_text(cut / "c.xyz.gz", "BZh91AY");
   EXPECT_TRUE(refuses(cut, "ends in .gz"));
+}
+
+TEST(Files, AFrameOfARunInAnotherBaseIsConverted) {
+  Case const first("first", scenario("path = \"v.xyz\", velocity = \"1 angstrom/ps\"", "Coulomb", "charge = \"1 e\""));
+  write_text(first / "v.xyz", "1\nProperties=species:S:1:pos:R:3:velo:R:3\nAr 1 2 3 5 0 0\n");
+  ASSERT_EQ(first.run().status, 0);
+  std::string const text =
+      "[units]\nbase = \"si\"\n[box]\nlow = [0, 0, 0]\nhigh = [1.1e-9, 1e-9, 1e-9]\nboundary = \"periodic\"\n[run]\nstep = "
+      "1e-15\nsteps = 0\n[[ensembles]]\nname = \"a\"\nclass = \"Newton\"\nload = { kind = \"frame\", path = "
+      "\"stored.h5\" }\n[output]\ntrajectory = 1\n";
+  Case const second("second", text);
+  std::filesystem::copy(first / "run/trajectory.h5", second / "stored.h5");
+  ASSERT_TRUE(notes(second, "note: 'a': left aside of stored.h5: charge"));
+  EXPECT_TRUE(notes(second, "warning: 'a': the box of stored.h5 is 1e-09 m long along x, this one 1.1e-09 m"));
+  EXPECT_NEAR(field(second, "position")[2] / 3e-10, 1, 1e-9);
+  EXPECT_NEAR(field(second, "velocity")[0] / 500, 1, 1e-9);
+  EXPECT_NEAR(field(second, "mass")[0] / (39.948 * 1.66053906660e-27), 1, 1e-9);
+}
+
+/// A table in the format eam.fs of Fe and Cr, made up: F = -A_a sqrt(rho), rho = (1 + a + 2 b) (1 - r/4)^3 of a at b, and
+/// V = (1 + a + b) (1 - r/4)^4.
+std::string finnis_sinclair() {
+  constexpr int n = 801;
+  double const dr = 4.0 / (n - 1), drho = 0.05;
+  auto const rows = [&](auto const& value) {
+    std::string text;
+    for (int k = 0; k < n; ++k) text += fmt::format("{:.15g}\n", value(k));
+    return text;
+  };
+  std::string text = fmt::format("c\nc\nc\n2 Fe Cr\n{0} {1} {0} {2} 4\n", n, drho, dr);
+  for (int a = 0; a < 2; ++a) {
+    text += "26 55.845 2.855 bcc\n" + rows([&](int k) { return -(1.5 + a) * std::sqrt(k * drho); });
+    for (int b = 0; b < 2; ++b) text += rows([&](int k) { return (1 + a + 2 * b) * std::pow(1 - k * dr / 4, 3); });
+  }
+  for (int a = 0; a < 2; ++a)
+    for (int b = 0; b <= a; ++b) text += rows([&](int k) { return k * dr * (1 + a + b) * std::pow(1 - k * dr / 4, 4); });
+  return text;
+}
+
+TEST(Files, AnAlloyOfFinnisAndSinclairFromACompressedFile) {
+  std::string text =
+      "[units]\nbase = \"custom\"\nlength = \"1 angstrom\"\nmass = \"1 amu\"\ntime = \"1 ps\"\n[box]\nlow = [0, 0, 0]\n"
+      "high = [20, 20, 20]\n[run]\nstep = 0.0001\nsteps = 1\n[embedded_atoms]\npotential = \"file\"\nfile = \"x.eam.fs.gz\"\n";
+  for (auto const& [name, element, x] : {std::tuple{"iron", "Fe", 5}, std::tuple{"chrome", "Cr", 7}})
+    text += fmt::format("[[ensembles]]\nname = \"{}\"\nclass = \"Newton\"\nelement = \"{}\"\n"
+                        "load = {{ kind = \"positions\", positions = [[{}, 5, 5]] }}\n",
+                        name, element, x);
+  Case const one("alloy", text + "[output]\ndiagnoses = 1\nunits = { energy = \"eV\" }\n[[diagnoses]]\nkind = \"energies\"\n");
+  write_gz(one / "x.eam.fs.gz", finnis_sinclair());
+  auto const ran = one.run();
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  // Two atoms 2 apart: V = 2/16, rho of Cr at Fe = 2/8, of Fe at Cr = 3/8.
+  EXPECT_NEAR(one.column("potential energy (eV)")[0], 2.0 / 16 - 1.5 * std::sqrt(2.0 / 8) - 2.5 * std::sqrt(3.0 / 8), 2e-5);
 }
 
 }  // namespace

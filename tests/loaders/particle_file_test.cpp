@@ -301,7 +301,7 @@ TEST_F(ParticleFile, ContradictionsAreRefused) {
            {"w.data", with(water, "3 0 0 -0.003\n", ""), "the section Velocities ends after 2 of its 3 atoms"},
            {"w.data", with(water, "1.5 2.0 3.0 0 1 0", "1.5 2.0 3.0"), "this line has 7, those before it have flags"},
            {"w.data", with(water, "0.0 10.0 ylo yhi", "10 0 0 bvec\n0 9 0 avec\n0 0 9 cvec"), "the box twice"},
-           {"w.data", with(water, "2 bonds", "two bonds"), "'two bonds' before this line is neither a line of the header"},
+           {"w.data", with(water, "2 bonds", "two bonds"), ":5: 'two bonds' is neither a line of the header nor a section"},
            {"w.data", with(water, "2 1.00794 # H\n", ""), "Masses has 1 types, the header says 2"},
            {"w.dump", with(dump, "2 1 2 2 2", "1 1 2 2 2"), ":11: there is an atom 1 already"},
            {"w.dump", with(dump, "2 1 2 2 2", "2 1 2 2 2 2"), ":11: an atom needs 5 words, this line has 6"},
