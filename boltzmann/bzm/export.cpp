@@ -69,10 +69,11 @@ int export_run(ExportRun const& options) {
   fmt::print("{}: {} frame{}, {}, units: {}\n", options.out, report.frames, report.frames == 1 ? "" : "s",
              join(report.names), report.units);
   for (auto const& [name, species] : report.no_elements)
-    fmt::print(stderr,
-               "note: '{}' is no chemical symbol, which ASE and others need; write --species {}=Cu, or element = \"Cu\" in "
-               "the ensemble\n",
-               species, name);
+    fmt::print(
+        stderr,
+        "note: '{}' is no chemical symbol, which ASE and others need; write --species {}=Cu, or element = \"Cu\" in "
+        "the ensemble\n",
+        species, name);
   return 0;
 }
 

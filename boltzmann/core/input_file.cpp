@@ -39,7 +39,9 @@ std::unique_ptr<std::istream> open_text(std::string const& path, std::string con
   if (begins.starts_with("\x1f\x8b")) return std::make_unique<GzipStream>(path);
   if (path.ends_with(".gz")) throw Error("'" + path + "' ends in .gz, but is not compressed by gzip");
   for (auto const& [magic, name] : {std::pair<std::string_view, char const*>{"BZh", "bzip2"},
-                                    {"\xfd" "7zXZ", "xz"},
+                                    {"\xfd"
+                                     "7zXZ",
+                                     "xz"},
                                     {"\x28\xb5\x2f\xfd", "zstd"},
                                     {"PK\x03\x04", "zip"}})
     if (begins.starts_with(magic))

@@ -37,10 +37,17 @@ std::unique_ptr<FrameWriter> writer_of(std::string const& path) {
 }
 
 constexpr std::array all_formats{
-    ExportFormat{"extended XYZ", ".xyz .extxyz",
+    ExportFormat{"extended XYZ",
+                 ".xyz .extxyz",
                  "all frames as text: box, species, id, pos, velo and the other fields that the ensembles share",
-                 "OVITO, ASE, MDAnalysis and VMD (these two: positions alone)", writer_of<xyz_text>, Fields::shared,
-                 Frames::all, true, nullptr, {}, true},
+                 "OVITO, ASE, MDAnalysis and VMD (these two: positions alone)",
+                 writer_of<xyz_text>,
+                 Fields::shared,
+                 Frames::all,
+                 true,
+                 nullptr,
+                 {},
+                 true},
     ExportFormat{"LAMMPS dump", ".dump .lammpstrj",
                  "all frames as text: box, id, type, element, x y z, vx vy vz, mass, q and the other fields",
                  "OVITO, VMD, MDAnalysis, ASE", writer_of<dump_text>, Fields::shared, Frames::all, true},

@@ -50,7 +50,8 @@ class WordReader {
     double number = 0;
     for (++number_; read_line(*file_, text, path_); ++number_)
       if (auto const words = words_of(text);
-          !words.empty() && std::from_chars(words[0].data(), words[0].data() + words[0].size(), number).ec == std::errc{})
+          !words.empty() &&
+          std::from_chars(words[0].data(), words[0].data() + words[0].size(), number).ec == std::errc{})
         throw wrong(fmt::format("'{}' follows the last table; eam.alloy, eam.fs and funcfl can be read, adp can't",
                                 quoted(words[0])));
   }
@@ -127,7 +128,7 @@ FileSpacing read_spacing(WordReader& words) {
 struct FileTables {
   FileSpacing spacing;
   std::vector<std::string> names;
-  std::vector<std::vector<double>> embedding, pair;  ///< pairs: (0, 0), (1, 0), (1, 1), ...; times distance
+  std::vector<std::vector<double>> embedding, pair;       ///< pairs: (0, 0), (1, 0), (1, 1), ...; times distance
   std::vector<std::vector<std::vector<double>>> density;  ///< [of an atom of this element][at an atom of that one]
 };
 

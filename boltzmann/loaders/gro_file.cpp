@@ -10,8 +10,8 @@
 namespace boltzmann {
 namespace {
 
-constexpr std::size_t first_number = 20;  // after residue, its name, the atom's name and number: 5 letters each
-constexpr std::size_t most_atoms = 100'000;   // whose numbers differ
+constexpr std::size_t first_number = 20;     // after residue, its name, the atom's name and number: 5 letters each
+constexpr std::size_t most_atoms = 100'000;  // whose numbers differ
 
 std::string_view trimmed(std::string_view text) {
   auto const words = words_of(text);
@@ -48,9 +48,10 @@ class GroAtoms {
     int numbers = 0;
     for (std::size_t a = 0; a < 3; ++a) numbers += trimmed(part(end + a * width_, width_)).empty() ? 0 : 1;
     if (numbers != 0 && numbers != 3)
-      throw lines_.error(fmt::format("an atom has three components of its velocity behind its z, or none; this line has "
-                                     "{}",
-                                     numbers));
+      throw lines_.error(
+          fmt::format("an atom has three components of its velocity behind its z, or none; this line has "
+                      "{}",
+                      numbers));
     if (frame_.species.size() == 1) moves_ = numbers > 0;
     if (moves_ != (numbers > 0))
       throw lines_.error(moves_ ? "this atom has no velocity, those before it have one"
@@ -62,8 +63,7 @@ class GroAtoms {
       frame_.left_aside.push_back("text behind the velocities (a GRO file has none)");
     }
     if (atoms < most_atoms && !names_.insert(std::string(line.substr(0, first_number))).second)
-      throw lines_.error(
-          fmt::format("the atom '{}' is there twice", quoted(trimmed(line.substr(0, first_number)))));
+      throw lines_.error(fmt::format("the atom '{}' is there twice", quoted(trimmed(line.substr(0, first_number)))));
   }
   bool moves() const { return moves_; }
 
@@ -75,8 +75,8 @@ class GroAtoms {
   double number(std::size_t at, char const* what) const {
     auto const words = words_of(part(at, width_));
     if (words.size() > 1)
-      throw lines_.error(fmt::format("the columns of the {} hold two words; all numbers need columns of {} letters",
-                                     what, width_));
+      throw lines_.error(
+          fmt::format("the columns of the {} hold two words; all numbers need columns of {} letters", what, width_));
     return lines_.number(words.empty() ? std::string_view() : words.front(), what);
   }
 

@@ -118,9 +118,10 @@ class DataReader {
     std::string name;
     for (std::size_t k = numbers; k < n; ++k) name += (k > numbers ? " " : "") + std::string(words_[k]);
     if (numbers == 0 || name.empty())
-      throw lines_.error(fmt::format("'{}' is neither a line of the header nor a section",
-                                     boltzmann::quoted(lines_.line())));
-    if (!header_.insert(name).second) throw lines_.error(fmt::format("the header says '{}' twice", boltzmann::quoted(name)));
+      throw lines_.error(
+          fmt::format("'{}' is neither a line of the header nor a section", boltzmann::quoted(lines_.line())));
+    if (!header_.insert(name).second)
+      throw lines_.error(fmt::format("the header says '{}' twice", boltzmann::quoted(name)));
     if (numbers == 2 && n == 4 && words_[2].size() == 3 && words_[2].ends_with("lo") && words_[3].ends_with("hi"))
       return read_edges();
     if (numbers == 3 && is(3, "xy")) {
@@ -174,8 +175,8 @@ class DataReader {
     for (auto const& [section, counted, how] : left_sections) {
       if (section != name) continue;
       if (!counted.empty() && rows != count(std::string(counted)))
-        throw lines_.ended(fmt::format("the section {} has {} lines, the header says {}", name, rows,
-                                       count(std::string(counted))));
+        throw lines_.ended(
+            fmt::format("the section {} has {} lines, the header says {}", name, rows, count(std::string(counted))));
       return frame_.left_aside.push_back(fmt::format("section {} ({} lines; {})", name, rows, how));
     }
     if (name.ends_with("Labels")) return;
@@ -236,10 +237,10 @@ class DataReader {
     if (words_.size() == 5)
       style_ = find_atom_style("atomic");
     else
-      throw lines_.error(
-          fmt::format("of {} words an atom may be of style {}: write 'Atoms # {}' in the file, or style = \"{}\" in load",
-                      words_.size(), join(atom_styles_of(words_.size()), " or "),
-                      atom_styles_of(words_.size()).front(), atom_styles_of(words_.size()).front()));
+      throw lines_.error(fmt::format(
+          "of {} words an atom may be of style {}: write 'Atoms # {}' in the file, or style = \"{}\" in load",
+          words_.size(), join(atom_styles_of(words_.size()), " or "), atom_styles_of(words_.size()).front(),
+          atom_styles_of(words_.size()).front()));
   }
 
   void read_atoms() {
@@ -256,13 +257,11 @@ class DataReader {
                                        style_->name, columns_.size(), columns_.size() + 3, words_.size(),
                                        images_ ? ", those before it have flags" : ""));
       std::int64_t const id = identifier();
-      if (!index_.emplace(id, order_.size()).second)
-        throw lines_.error(fmt::format("there is an atom {} already", id));
+      if (!index_.emplace(id, order_.size()).second) throw lines_.error(fmt::format("there is an atom {} already", id));
       order_.emplace_back(id, order_.size());
       read_atom();
     }
-    if (rows_ < atoms)
-      throw lines_.ended(fmt::format("the section Atoms ends after {} of its {} atoms", rows_, atoms));
+    if (rows_ < atoms) throw lines_.ended(fmt::format("the section Atoms ends after {} of its {} atoms", rows_, atoms));
   }
 
   /// The first atom says whether there are image flags.
@@ -355,7 +354,8 @@ class DataReader {
     auto& type = frame_.columns[2].values;
     for (auto const& species : frame_.species) {
       double number = 0;
-      if (!parse_word(std::string_view(species), number)) return frame_.columns.erase(frame_.columns.begin() + 2), void();
+      if (!parse_word(std::string_view(species), number))
+        return frame_.columns.erase(frame_.columns.begin() + 2), void();
       type.push_back(number);
     }
   }
@@ -380,8 +380,10 @@ class DataReader {
   }
 
   ParticleFrame finished() {
-    if (order_.empty()) frame_.columns = {{"position", 3, {}}};
-    else settle_types();
+    if (order_.empty())
+      frame_.columns = {{"position", 3, {}}};
+    else
+      settle_types();
     if (sections_.contains("Velocities")) {
       frame_.columns.push_back({"velocity", 3, std::move(velocity_)});
       if (!spin_.empty()) frame_.columns.push_back({"angular_velocity", 3, std::move(spin_)});
@@ -400,8 +402,8 @@ class DataReader {
   std::vector<std::string_view> words_, columns_;
   ParticleFrame frame_;
   AtomStyle const* style_ = nullptr;
-  bool said_ = false;                     ///< the scenario says the style
-  bool blank_ = false;                    ///< a line without words stands before this one
+  bool said_ = false;   ///< the scenario says the style
+  bool blank_ = false;  ///< a line without words stands before this one
   bool images_ = false;
   std::size_t width_ = 0, rows_ = 0, vectors_ = 0;
   std::map<std::string, std::size_t> counts_;  ///< of the header: "atoms", "bonds", "atom types"

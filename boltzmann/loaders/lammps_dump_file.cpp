@@ -72,7 +72,8 @@ class DumpReader {
     std::set<std::string> items;
     for (std::string name = item(); !name.starts_with("ATOMS"); name = item()) {
       std::string const kind = name.substr(0, name.starts_with("BOX BOUNDS") ? 10 : std::string::npos);
-      if (!items.insert(kind).second) throw lines_.error(fmt::format("the frame has ITEM: {} already", boltzmann::quoted(kind)));
+      if (!items.insert(kind).second)
+        throw lines_.error(fmt::format("the frame has ITEM: {} already", boltzmann::quoted(kind)));
       if (kind == "BOX BOUNDS") {
         box = read_box(name);
         frame.lattice = box.lattice();
@@ -80,9 +81,10 @@ class DumpReader {
         continue;
       }
       if (kind != "TIMESTEP" && kind != "UNITS" && kind != "TIME" && kind != "NUMBER OF ATOMS")
-        throw lines_.error(fmt::format("ITEM: {} can't be read; those that can are TIMESTEP, TIME, UNITS, NUMBER OF "
-                                       "ATOMS, BOX BOUNDS, ATOMS",
-                                       boltzmann::quoted(kind)));
+        throw lines_.error(
+            fmt::format("ITEM: {} can't be read; those that can are TIMESTEP, TIME, UNITS, NUMBER OF "
+                        "ATOMS, BOX BOUNDS, ATOMS",
+                        boltzmann::quoted(kind)));
       lines_.need(name);
       if (name == "TIMESTEP") frame.comment = "step " + lines_.line();
       if (name == "UNITS") frame.units = lines_.words().empty() ? "" : std::string(lines_.words().front());
@@ -199,8 +201,7 @@ class DumpReader {
       };
       if (among(columns.places.at) || (columns.moves && among(speed)) || k == columns.element) continue;
       columns.others.push_back(k);
-      frame.columns.push_back(
-          {names[k] == "q" ? "charge" : names[k], 1, {}, "", k == columns.id || k == columns.type});
+      frame.columns.push_back({names[k] == "q" ? "charge" : names[k], 1, {}, "", k == columns.id || k == columns.type});
     }
     columns.numeric.assign(columns.others.size(), true);
     return columns;

@@ -57,9 +57,8 @@ bool is_count(std::string_view line) {
 bool has_numbers(std::string_view line, std::size_t count) {
   auto const words = words_of(line);
   double value = 0;
-  return words.size() >= count &&
-         std::all_of(words.begin(), words.begin() + static_cast<std::ptrdiff_t>(count),
-                     [&](std::string_view word) { return parse_word(word, value); });
+  return words.size() >= count && std::all_of(words.begin(), words.begin() + static_cast<std::ptrdiff_t>(count),
+                                              [&](std::string_view word) { return parse_word(word, value); });
 }
 
 /// The name of the format that the lines look like; empty: none.
@@ -94,8 +93,9 @@ ParticleFileFormat const& format_of(std::string const& path, std::string const& 
     if (format.name == wanted) return format;
   auto const names = particle_file_names();
   if (name.empty())
-    throw Error(fmt::format("{}: neither its name nor its first lines show a format; write format = \"{}\" (there are {})",
-                            path, names.front(), join(names)));
+    throw Error(
+        fmt::format("{}: neither its name nor its first lines show a format; write format = \"{}\" (there are {})",
+                    path, names.front(), join(names)));
   throw Error(fmt::format("there is no format '{}'; there are {}{}", name, join(names), did_you_mean(name, names)));
 }
 

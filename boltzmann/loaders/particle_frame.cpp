@@ -79,20 +79,18 @@ std::vector<std::string> left_aside(AnyEnsemble const& ensemble, ParticleFrame c
                                     std::vector<std::string> const& given) {
   std::vector<std::string> unread, replaced, all;
   for (auto const& column : frame.columns) {
-    bool const empty =
-        std::all_of(column.values.begin(), column.values.end(), [](double value) { return value == 0; });
+    bool const empty = std::all_of(column.values.begin(), column.values.end(), [](double value) { return value == 0; });
     if (column.used || empty) continue;
     Field const* field = ensemble.find_field(column.name);
     if (field_for(ensemble, column) == nullptr)
-      unread.push_back(field ? fmt::format("{} ({} numbers, the field has {})", column.name, column.components,
-                                           field->components)
-                             : column.name);
+      unread.push_back(
+          field ? fmt::format("{} ({} numbers, the field has {})", column.name, column.components, field->components)
+                : column.name);
     else if (std::find(given.begin(), given.end(), column.name) != given.end())
       replaced.push_back(column.name);
   }
   if (!replaced.empty()) all.push_back(join(replaced) + " (the scenario gives other values)");
-  if (!unread.empty())
-    all.push_back(fmt::format("{} (a class with fields of these names gets them)", join(unread)));
+  if (!unread.empty()) all.push_back(fmt::format("{} (a class with fields of these names gets them)", join(unread)));
   all.insert(all.end(), frame.left_aside.begin(), frame.left_aside.end());
   return all;
 }

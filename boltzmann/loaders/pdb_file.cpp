@@ -58,7 +58,8 @@ class PdbReader {
       else if (record_ == "ENDMDL" || record_ == "END")
         end_model();
     }
-    if (in_model_ && !found_) throw lines_.ended(fmt::format("the file ends within model {}: there is no ENDMDL", frames_ + 1));
+    if (in_model_ && !found_)
+      throw lines_.ended(fmt::format("the file ends within model {}: there is no ENDMDL", frames_ + 1));
     if (!found_ && atoms_ > 0 && frames_++ == wanted_) found_ = finished();
     if (found_) {
       if (bonds_ > 0)
@@ -76,8 +77,11 @@ class PdbReader {
     frame_.comment = title_;
     frame_.lattice = lattice_;
     frame_.rounding = rounding_;
-    frame_.columns = {{"position", 3, {}, "angstrom"}, {"residue", 1, {}}, {"occupancy", 1, {}},
-                      {"temperature_factor", 1, {}}, {"charge", 1, {}, "e"}};
+    frame_.columns = {{"position", 3, {}, "angstrom"},
+                      {"residue", 1, {}},
+                      {"occupancy", 1, {}},
+                      {"temperature_factor", 1, {}},
+                      {"charge", 1, {}, "e"}};
     atoms_ = 0;
     elements_ = charges_ = 0;
     names_.clear();
@@ -112,8 +116,7 @@ class PdbReader {
     if (frames_ != wanted_) return;
     std::string_view const line = lines_.line();
     if (line.size() < 54) throw lines_.error("an atom's line ends before its z, which stands in columns 47 to 54");
-    for (std::size_t a = 0; a < 3; ++a)
-      frame_.columns[0].values.push_back(number(31 + 8 * a, 38 + 8 * a, "position"));
+    for (std::size_t a = 0; a < 3; ++a) frame_.columns[0].values.push_back(number(31 + 8 * a, 38 + 8 * a, "position"));
     if (auto const place = columns(line, 17, 17); !place.empty() && place != "A" && place != "1")
       throw lines_.error(
           fmt::format("the file has alternate places of an atom ('{}' in column 17); keep one of them", quoted(place)));
@@ -147,12 +150,14 @@ class PdbReader {
       angle[a] = number(34 + 7 * a, 40 + 7 * a, "angle of CRYST1");
     }
     if (edge[0] <= 1 && edge[1] <= 1 && edge[2] <= 1) return;
-    auto const cosine = [&](std::size_t a) { return angle[a] == 90 ? 0.0 : std::cos(angle[a] * std::acos(-1.0) / 180); };
+    auto const cosine = [&](std::size_t a) {
+      return angle[a] == 90 ? 0.0 : std::cos(angle[a] * std::acos(-1.0) / 180);
+    };
     double const alpha = cosine(0), beta = cosine(1), gamma = cosine(2), sine = std::sqrt(1 - gamma * gamma);
     double const y = (alpha - beta * gamma) / sine, z2 = 1 - beta * beta - y * y;
     if (!(sine > 0) || !(z2 > 0)) throw lines_.error("the angles of CRYST1 are those of no box");
-    lattice_ = {edge[0], 0, 0, edge[1] * gamma, edge[1] * sine, 0, edge[2] * beta, edge[2] * y,
-                edge[2] * std::sqrt(z2)};
+    lattice_ = {
+        edge[0], 0, 0, edge[1] * gamma, edge[1] * sine, 0, edge[2] * beta, edge[2] * y, edge[2] * std::sqrt(z2)};
     rounding_ = 0.5e-3;
     if (frame_.lattice && atoms_ > 0 && *frame_.lattice != *lattice_)
       throw lines_.error("a second CRYST1 gives the same atoms another box");
@@ -173,9 +178,10 @@ class PdbReader {
     }
     if (charges_ == 0) frame_.columns.pop_back();
     if (!group_.empty())
-      frame_.left_aside.push_back(fmt::format("the symmetry of space group {} (only the atoms of the file are read; "
-                                              "write all of the cell)",
-                                              group_));
+      frame_.left_aside.push_back(
+          fmt::format("the symmetry of space group {} (only the atoms of the file are read; "
+                      "write all of the cell)",
+                      group_));
     return std::move(frame_);
   }
 

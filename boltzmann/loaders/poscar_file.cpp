@@ -91,8 +91,8 @@ class PoscarReader {
         std::vector<double> x;
         lines_.numbers(words, 0, 3, "position", x);
         for (std::size_t a = 0; a < 3; ++a)
-          frame_.columns[0].values.push_back(
-              direct ? x[0] * edges[a] + x[1] * edges[3 + a] + x[2] * edges[6 + a] : scale[a] * x[a]);
+          frame_.columns[0].values.push_back(direct ? x[0] * edges[a] + x[1] * edges[3 + a] + x[2] * edges[6 + a]
+                                                    : scale[a] * x[a]);
         // "Fe_pv" and "Si/1a2b" are of Fe and Si.
         frame_.species.push_back(kind.name.substr(0, kind.name.find_first_of("_/")));
         if (selective && may_not_move(words)) ++held_;
@@ -101,9 +101,8 @@ class PoscarReader {
       if (auto const end = kind.name.find_first_of("_/"); end != std::string::npos)
         frame_.labels.emplace_back(kind.name, kind.name.substr(0, end));
     if (held_ > 0)
-      frame_.left_aside.push_back(
-          fmt::format("selective dynamics, by which {} atoms are held (freeze = true in [[ensembles.set]] holds them)",
-                      held_));
+      frame_.left_aside.push_back(fmt::format(
+          "selective dynamics, by which {} atoms are held (freeze = true in [[ensembles.set]] holds them)", held_));
   }
 
   /// Velocities, behind a blank line or a word, and what else may follow.
@@ -134,8 +133,8 @@ class PoscarReader {
       frame_.columns.push_back(std::move(velocity));
     if (!lines_.next()) return;
     if (letter() != ' ')
-      throw lines_.error(fmt::format("'{}' follows the {} velocities", boltzmann::quoted(lines_.line()),
-                                     frame_.size()));
+      throw lines_.error(
+          fmt::format("'{}' follows the {} velocities", boltzmann::quoted(lines_.line()), frame_.size()));
     while (lines_.next())
       if (letter() != ' ')
         return frame_.left_aside.push_back("what VASP's predictor needs to go on (a run here begins anew)");

@@ -43,8 +43,8 @@ Attributes attributes_of(std::string_view comment) {
       ++at;
       continue;
     }
-    std::size_t const key_end = comment[at] == '"' ? end_of_value(comment, at)
-                                                   : std::min(comment.find_first_of("= \t\r", at), comment.size());
+    std::size_t const key_end =
+        comment[at] == '"' ? end_of_value(comment, at) : std::min(comment.find_first_of("= \t\r", at), comment.size());
     std::string key(comment.substr(at, key_end - at));
     std::erase(key, '"');
     at = key_end;
@@ -89,9 +89,9 @@ std::string unit_of(Attributes const& attributes, std::string const& name) {
 
 std::string standard_word(std::string_view name) {
   constexpr std::pair<std::string_view, std::string_view> known[] = {
-      {"pos", "position"},    {"positions", "position"},     {"velo", "velocity"},   {"vel", "velocity"},
-      {"vels", "velocity"},   {"velocities", "velocity"},    {"masses", "mass"},     {"charges", "charge"},
-      {"q", "charge"},        {"initial_charges", "charge"}, {"momenta", "momentum"}};
+      {"pos", "position"},  {"positions", "position"},     {"velo", "velocity"},   {"vel", "velocity"},
+      {"vels", "velocity"}, {"velocities", "velocity"},    {"masses", "mass"},     {"charges", "charge"},
+      {"q", "charge"},      {"initial_charges", "charge"}, {"momenta", "momentum"}};
   for (auto const& [word, standard] : known)
     if (word == name) return std::string(standard);
   return std::string(name);
@@ -106,8 +106,8 @@ struct Layout {
   };
   std::vector<Part> numbers;
   std::optional<std::size_t> species, atomic_number, id;
-  std::size_t width = 0;         // words on each line
-  bool exact = true;             // false: the first line says how many there are
+  std::size_t width = 0;  // words on each line
+  bool exact = true;      // false: the first line says how many there are
 };
 
 /// The number of particles of the next frame; nothing at the end of the file.
@@ -150,8 +150,8 @@ void add_property(TextLines const& reader, std::string const& name, std::string 
     if (components == 1 && (name == "numbers" || name == "Z")) layout.atomic_number = layout.width, column.used = true;
     if (components == 1 && type == "I" && name == "id") layout.id = layout.width, column.used = true;
     add_column(reader, frame, std::move(column));
-  } else if (!layout.species && std::find(std::begin(names_of_species), std::end(names_of_species), name) !=
-                                    std::end(names_of_species)) {
+  } else if (!layout.species &&
+             std::find(std::begin(names_of_species), std::end(names_of_species), name) != std::end(names_of_species)) {
     layout.species = layout.width;
   } else {
     frame.left_aside.push_back(fmt::format("{} (words, which no field holds)", quoted(name)));
@@ -232,9 +232,7 @@ void read_particle(TextLines const& reader, Layout& layout, ParticleFrame& frame
     if (std::int64_t id = 0; parse_word(found[*layout.id], id)) identifiers.add(reader, id);
   Element const* const element =
       !layout.species && layout.atomic_number ? find_element(found[*layout.atomic_number]) : nullptr;
-  frame.species.emplace_back(layout.species ? found[*layout.species]
-                             : element      ? element->symbol
-                                            : std::string_view());
+  frame.species.emplace_back(layout.species ? found[*layout.species] : element ? element->symbol : std::string_view());
   for (auto const& part : layout.numbers) {
     FileColumn& column = frame.columns[part.column];
     for (int c = 0; c < column.components; ++c) {

@@ -21,7 +21,7 @@ class RunFrames {
  public:
   RunFrames(Simulation const& simulation, UnitSystem const& units) : simulation_(simulation), units_(units) {}
 
-  std::int64_t every = 0;  ///< steps; 0: never
+  std::int64_t every = 0;                                          ///< steps; 0: never
   std::vector<std::pair<std::string, std::string>> elements = {};  ///< of ensembles
 
   void begin(std::string const& path);

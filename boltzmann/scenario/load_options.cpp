@@ -156,7 +156,8 @@ std::vector<LoadKind> make_kinds() {  // long: a table, an entry for each kind
        false, of({{"counts", "sites along each axis"}})},
       {"positions", "where you say", false, of({{"positions"}})},
       {"file",
-       "a file of another program, also compressed by gzip: XYZ, LAMMPS data or dump, PDB, GRO, POSCAR; its lattice has "
+       "a file of another program, also compressed by gzip: XYZ, LAMMPS data or dump, PDB, GRO, POSCAR; its lattice "
+       "has "
        "to be the box along axes that are periodic in both",
        false, of({{"path"}, {"format"}, {"frame"}, {"species"}, {"units"}, {"style"}, {"length"}, {"velocity"}})},
       {"frame", "a frame of the trajectory of another run, with all fields that both have", false,

@@ -95,10 +95,10 @@ class EnsembleReader {
   }
 
   void read_keys() {
-    read_options(
-        section_,
-        ensemble_options().only({{"name"}, {"number"}, {"molecule"}, {"integrator"}, {"colour"}, {"diameter"}, {"element"}}),
-        &options_, {.dimension = reading_.dimension});
+    read_options(section_,
+                 ensemble_options().only(
+                     {{"name"}, {"number"}, {"molecule"}, {"integrator"}, {"colour"}, {"diameter"}, {"element"}}),
+                 &options_, {.dimension = reading_.dimension});
     ensemble_.name = options_.name;
     read_element();
     ensemble_.molecules.length = options_.molecule;
@@ -254,15 +254,19 @@ class EnsembleReader {
     std::string const file = loader_->file_name();
     for (std::size_t i = 0; i < masses.size(); ++i) particles_->row(i)[mass.offset] = masses[i];
     if (masses.size() == count_)
-      return reading_.note(fmt::format("note: '{}': {} has no masses; those of the elements are taken, and `mass` gives "
-                                       "others",
-                                       options_.name, file));
+      return reading_.note(
+          fmt::format("note: '{}': {} has no masses; those of the elements are taken, and `mass` gives "
+                      "others",
+                      options_.name, file));
     constexpr char const* cure = "add mass = \"18 amu\" or element = \"O\" to the ensemble";
+    if (set_gives_mass()) return;
     if (units.scale() == UnitSystem::si().scale() || units.scale() == UnitSystem::cgs().scale())
-      throw Error(fmt::format("load: {} has no masses, and its species are no elements with known masses; {}", file, cure));
-    reading_.note(fmt::format("warning: '{}': {} has no masses, and its species are no elements with known masses: each "
-                              "mass is {}; {}",
-                              options_.name, file, units.text(1, dimensions::mass, 6), cure));
+      throw Error(
+          fmt::format("load: {} has no masses, and its species are no elements with known masses; {}", file, cure));
+    reading_.note(
+        fmt::format("warning: '{}': {} has no masses, and its species are no elements with known masses: each "
+                    "mass is {}; {}",
+                    options_.name, file, units.text(1, dimensions::mass, 6), cure));
   }
 
   /// Internal energies, and what formulas say. The density goes before: from it follow masses, and other formulas may
@@ -297,6 +301,16 @@ class EnsembleReader {
       return false;
     return !ripple_ || catch_errors(reading_, section_.place("velocity_ripple"),
                                     [&] { velocity_ripple(*particles_, *reading_.box, *ripple_); });
+  }
+
+  /// Whether some [[ensembles.set]] gives masses.
+  bool set_gives_mass() const {
+    Item const* sets = section_.item("set");
+    if (!sets || !sets->is(Item::Kind::array)) return false;
+    return std::any_of(sets->elements.begin(), sets->elements.end(), [](Item const& set) {
+      Entry const* formulas = set.find("formulas");
+      return set.find("mass") || (formulas && formulas->item.find("mass"));
+    });
   }
 
   /// [[ensembles.set]]: other values for some of them.
@@ -420,9 +434,10 @@ void note_species(Reading& reading) {
     if (!none.empty())
       reading.note(fmt::format("note: {}: no ensemble takes the particles of species {}", name, some_of(none)));
     if (!several.empty())
-      reading.note(fmt::format("warning: {}: several ensembles take the particles of species {}, which are there several "
-                               "times; write `species` in each load",
-                               name, some_of(several)));
+      reading.note(
+          fmt::format("warning: {}: several ensembles take the particles of species {}, which are there several "
+                      "times; write `species` in each load",
+                      name, some_of(several)));
   }
 }
 

@@ -101,8 +101,8 @@ bool is_nobody(std::vector<ChosenParticles> const& who) {
 /// Of an event that happens to no particle.
 void warn_of_nobody(std::string const& where, std::string const& time) {
   if (team().first())
-    fmt::print(stderr, "{}warning: event at {}: where '{}' is true for no particle\n", rewrites_lines() ? "\r\033[K" : "",
-               time, where);
+    fmt::print(stderr, "{}warning: event at {}: where '{}' is true for no particle\n",
+               rewrites_lines() ? "\r\033[K" : "", time, where);
 }
 
 /// `on` and `where`.
@@ -234,15 +234,15 @@ void read_event(Item const& table, std::size_t number, Reading& reading) {
              append(*to, *more);
            }});
     if (moves)
-      reading.events.push_back({at, passing, [=, k = reading.boltzmann_constant(),
-                                              units = reading.context.units](Simulation& simulation) {
-                                  auto const who = who_is_moved(moved, simulation.time());
-                                  if (!condition.empty() && is_nobody(who))
-                                    warn_of_nobody(condition, units.text(simulation.time(), dimensions::time));
-                                  if (options.temperature) scale_to_temperature(who, *options.temperature, k);
-                                  if (options.scale) scale_velocities(who, *options.scale);
-                                  if (options.kick) kick(who, *options.kick);
-                                }});
+      reading.events.push_back(
+          {at, passing, [=, k = reading.boltzmann_constant(), units = reading.context.units](Simulation& simulation) {
+             auto const who = who_is_moved(moved, simulation.time());
+             if (!condition.empty() && is_nobody(who))
+               warn_of_nobody(condition, units.text(simulation.time(), dimensions::time));
+             if (options.temperature) scale_to_temperature(who, *options.temperature, k);
+             if (options.scale) scale_velocities(who, *options.scale);
+             if (options.kick) kick(who, *options.kick);
+           }});
   }
 }
 

@@ -147,9 +147,8 @@ void Loader::read_spacing(std::optional<std::size_t> number, Place const& number
     if (by_constant) section_.refuse("number_density", "'lattice_constant' says it, too; leave one out");
     if (reading_.dimension == 0) return;
     spacing_known_ = catch_errors(reading_, section_.place(by_constant ? "lattice_constant" : "number_density"), [&] {
-      block_.spacing = by_constant
-                           ? spacing_for_constant(block_.kind, reading_.dimension, *options_.lattice_constant)
-                           : spacing_for_density(block_.kind, reading_.dimension, *options_.number_density);
+      block_.spacing = by_constant ? spacing_for_constant(block_.kind, reading_.dimension, *options_.lattice_constant)
+                                   : spacing_for_density(block_.kind, reading_.dimension, *options_.number_density);
     });
   } else if (kind_->name == "fill" && number) {
     read_corners();
@@ -357,12 +356,13 @@ void Loader::refuse_overlapping_ends(std::array<double, 3> const& lengths) {
     if (!reading_.box->periodic(a) || length - axis <= block_.spacing / 2) continue;
     auto const told = [&](double number) { return reading_.context.units.text(number, dimensions::length, 6); };
     Place const counts = section_.place("counts"), spacing = section_.place("spacing");
-    reading_.mistake(spacing.override_number > counts.override_number ? spacing : counts,
-                     fmt::format("counts: the block is {} long along {}, the periodic axis {}: its ends would overlap{}",
-                                 told(length), "xyz"[a], told(axis),
-                                 options_.spacing && block_.kind != Lattice::square
-                                     ? "; 'spacing' is of nearest neighbours, not the lattice constant"
-                                     : ""));
+    reading_.mistake(
+        spacing.override_number > counts.override_number ? spacing : counts,
+        fmt::format("counts: the block is {} long along {}, the periodic axis {}: its ends would overlap{}",
+                    told(length), "xyz"[a], told(axis),
+                    options_.spacing && block_.kind != Lattice::square
+                        ? "; 'spacing' is of nearest neighbours, not the lattice constant"
+                        : ""));
     return;
   }
 }
@@ -558,8 +558,8 @@ std::vector<std::string> Loader::notes_of_frame(AnyEnsemble const& particles) co
   for (auto const& field : stored.fields)
     if (!particles.find_field(field.name)) unread.push_back(field.name);
   if (!unread.empty())
-    all.push_back(fmt::format("note: '{}': left aside of {}: {} (a class with fields of these names gets them)", ensemble_,
-                              file_name(), join(unread)));
+    all.push_back(fmt::format("note: '{}': left aside of {}: {} (a class with fields of these names gets them)",
+                              ensemble_, file_name(), join(unread)));
   bool const in_units = std::any_of(stored.fields.begin(), stored.fields.end(),
                                     [](auto const& field) { return field.name == "position" && !field.unit.empty(); });
   if (!in_units && !reading_.context.units.is_reduced())
@@ -587,16 +587,16 @@ std::vector<std::string> Loader::notes(AnyEnsemble const& particles, std::vector
   if (kind_ && kind_->name == "frame" && stored_) return notes_of_frame(particles);
   if (!reads_file()) return all;
   if (frame_.lattice && is_skew(*frame_.lattice))
-    all.push_back(fmt::format("note: '{}': the box of {} has no right angles; only its atoms are taken", ensemble_,
-                              file_name()));
+    all.push_back(
+        fmt::format("note: '{}': the box of {} has no right angles; only its atoms are taken", ensemble_, file_name()));
   auto const aside = left_aside(particles, frame_, given);
   if (!aside.empty())
     all.push_back(fmt::format("note: '{}': left aside of {}: {}", ensemble_, file_name(), join(aside, "; ")));
   if (auto line = assumed_units(particles, given); !line.empty()) all.push_back(std::move(line));
   auto const* charge = particles.find_field("charge");
   if (charge && !frame_.find("charge") && std::find(given.begin(), given.end(), "charge") == given.end())
-    all.push_back(fmt::format("note: '{}': {} has no charges, so they are 0; `charge` gives others", ensemble_,
-                              file_name()));
+    all.push_back(
+        fmt::format("note: '{}': {} has no charges, so they are 0; `charge` gives others", ensemble_, file_name()));
   return all;
 }
 

@@ -194,7 +194,8 @@ OptionTable make_ensemble_options() {  // long: a table, a row for each key
                "none");
   all.add_said("formulas", "a table of [formulas](#formulas)", "fields that depend on the place", "none");
   all.add("element", &E::element, text(),
-          "the symbol of a chemical element, `\"Cu\"`. Exports name the particles by it. It gives their mass if nothing else "
+          "the symbol of a chemical element, `\"Cu\"`. Exports name the particles by it. It gives their mass if "
+          "nothing else "
           "does, and their element in `[embedded_atoms]`",
           "none");
   all.add("temperature", &E::temperature, number(dimensions::temperature, not_negative),

@@ -28,8 +28,8 @@ std::string scenario(std::string const& load, std::string const& kind = "Newton"
   return "[units]\nbase = \"custom\"\nlength = \"1 angstrom\"\nmass = \"1 amu\"\ntime = \"1 ps\"\n"
          "[box]\nlow = [0, 0, 0]\nhigh = [10, 10, 10]\nboundary = \"periodic\"\n"
          "[run]\nstep = 0.001\nsteps = 0\n" +
-         rest + "[[ensembles]]\nname = \"a\"\nclass = \"" + kind + "\"\n" + more + "\nload = { kind = \"file\", " + load +
-         " }\n[output]\ntrajectory = 1\n";
+         rest + "[[ensembles]]\nname = \"a\"\nclass = \"" + kind + "\"\n" + more + "\nload = { kind = \"file\", " +
+         load + " }\n[output]\ntrajectory = 1\n";
 }
 
 /// A field of ensemble "a" at the start.
@@ -90,7 +90,8 @@ TEST(Files, TypesAreNumbersAndLabelsMixed) {
 }
 
 TEST(Files, TrueIsASpellingOfPeriodic) {
-  EXPECT_TRUE(refuses(Case("pbc-true"), "the file's lattice is 12 angstrom long along x, the periodic box 10 angstrom"));
+  EXPECT_TRUE(
+      refuses(Case("pbc-true"), "the file's lattice is 12 angstrom long along x, the periodic box 10 angstrom"));
 }
 
 TEST(Files, AnAtomStyleIsNotGuessed) {
@@ -119,20 +120,23 @@ TEST(Files, AMassIsThatOfTheElementOrAskedFor) {
   // Names of atoms are no elements: CA is a carbon of proteins.
   Case const name("name", scenario("path = \"ca.gro\""));
   write_text(name / "ca.gro", "one\n1\n    1GLY     CA    1   0.100   0.200   0.300\n   1.00000   1.00000   1.00000\n");
-  EXPECT_TRUE(notes(name, "warning: 'a': ca.gro has no masses, and its species are no elements with known masses: each mass "
-                          "is 1 amu"));
+  EXPECT_TRUE(notes(name,
+                    "warning: 'a': ca.gro has no masses, and its species are no elements with known masses: each mass "
+                    "is 1 amu"));
   auto in_kilograms = scenario("path = \"ca.gro\"");
   in_kilograms.replace(0, in_kilograms.find("[box]"), "[units]\nbase = \"si\"\n");
   in_kilograms.replace(in_kilograms.find("[10, 10, 10]"), 12, "[1e-9, 1e-9, 1e-9]");
   Case const kilogram("kilogram", in_kilograms);
   write_text(kilogram / "ca.gro", text_of(name / "ca.gro"));
-  EXPECT_TRUE(refuses(kilogram, "load: ca.gro has no masses, and its species are no elements with known masses; add mass"));
+  EXPECT_TRUE(
+      refuses(kilogram, "load: ca.gro has no masses, and its species are no elements with known masses; add mass"));
   Case const wrong("wrong", scenario("path = \"one.gro\"", "Newton", "element = \"Kup\""));
   EXPECT_TRUE(refuses(wrong, "element: 'Kup' is not the symbol of an element"));
 }
 
 TEST(Files, FieldsGetTypesAndMoleculesFromAnyFormat) {
-  std::string const classes = "[[classes]]\nname = \"Site\"\nbase = \"Coulomb\"\nfields = [{ name = \"type\" }, { name = \"mol\" }]\n";
+  std::string const classes =
+      "[[classes]]\nname = \"Site\"\nbase = \"Coulomb\"\nfields = [{ name = \"type\" }, { name = \"mol\" }]\n";
   Case const dump("type-field");
   ASSERT_EQ(dump.run().status, 0);
   EXPECT_EQ(field(dump, "type"), Numbers{2});
@@ -144,8 +148,9 @@ TEST(Files, FieldsGetTypesAndMoleculesFromAnyFormat) {
        {Format{"t.dump",
                "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS pp pp pp\n0 10\n0 10\n0 10\n"
                "ITEM: ATOMS id mol type x y z\n7 3 2 1 1 1\n"},
-        Format{"t.data",
-               "c\n\n1 atoms\n2 atom types\n0 10 xlo xhi\n0 10 ylo yhi\n0 10 zlo zhi\n\nAtoms # full\n\n7 3 2 0 1 1 1\n"},
+        Format{
+            "t.data",
+            "c\n\n1 atoms\n2 atom types\n0 10 xlo xhi\n0 10 ylo yhi\n0 10 zlo zhi\n\nAtoms # full\n\n7 3 2 0 1 1 1\n"},
         Format{"t.xyz", "1\nProperties=species:S:1:pos:R:3:type:I:1:mol:I:1\nX 1 1 1 2 3\n"}}) {
     Case const one("site", scenario(std::string("path = \"") + file + "\"", "Site", "mass = 1\ncharge = 1", classes));
     write_text(one / file, text);
@@ -162,8 +167,10 @@ TEST(Files, GroupsWithoutParticlesAreTold) {
       "[units]\nbase = \"reduced\"\n[box]\nlow = [0, 0, 0]\nhigh = [10, 10, 10]\n[run]\nstep = 0.01\nsteps = 2\n"
       "[[ensembles]]\nname = \"a\"\nclass = \"Newton\"\n"
       "load = { kind = \"positions\", positions = [[1, 1, 1], [2, 2, 2]] }\n";
-  EXPECT_TRUE(notes(Case("pull", start + "[[influences]]\nlaw = \"uniform\"\non = \"a\"\nacceleration = [1, 0, 0]\nwhere = \"y > 5\"\n"),
-                    "warning: where: 'y > 5' is true for no particle of 'a'"));
+  EXPECT_TRUE(notes(
+      Case("pull",
+           start + "[[influences]]\nlaw = \"uniform\"\non = \"a\"\nacceleration = [1, 0, 0]\nwhere = \"y > 5\"\n"),
+      "warning: where: 'y > 5' is true for no particle of 'a'"));
   Case const event("event", start + "[[events]]\nat = 0.01\nkick = [1, 0, 0]\nwhere = \"z < 0\"\n");
   EXPECT_TRUE(notes(event, "note: where: 'z < 0' is true for no particle at the start"));
   EXPECT_TRUE(contains(event.run().err, "warning: event at 0.01: where 'z < 0' is true for no particle"));
@@ -221,13 +228,15 @@ TEST(Files, AModelThatEndsTwiceIsRefused) {
 
 TEST(Files, WhatIsLeftAsideIsTold) {
   Case const bonds("bonds", scenario("path = \"m.data\"", "Coulomb"));
-  write_text(bonds / "m.data",
-             "c\n\n2 atoms\n1 atom types\n1 bonds\n1 bond types\n0 10 xlo xhi\n0 10 ylo yhi\n0 10 zlo zhi\n\nMasses\n\n1 2\n\n"
-             "Atoms # full\n\n1 4 1 0.5 1 1 1 0 0 2\n2 5 1 -0.5 2 2 2 0 0 0\n\nVelocities\n\n1 1 2 3\n2 4 5 6\n\n"
-             "Bonds\n\n1 1 1 2\n\nBond Coeffs # harmonic\n\n1 100 1\n");
-  ASSERT_TRUE(notes(bonds,
-                    "note: 'a': left aside of m.data: mol, iz (a class with fields of these names gets them); section Bonds "
-                    "(1 lines; `bonds` of the ensemble gives them); section Bond Coeffs ([[influences]] give laws)"));
+  write_text(
+      bonds / "m.data",
+      "c\n\n2 atoms\n1 atom types\n1 bonds\n1 bond types\n0 10 xlo xhi\n0 10 ylo yhi\n0 10 zlo zhi\n\nMasses\n\n1 2\n\n"
+      "Atoms # full\n\n1 4 1 0.5 1 1 1 0 0 2\n2 5 1 -0.5 2 2 2 0 0 0\n\nVelocities\n\n1 1 2 3\n2 4 5 6\n\n"
+      "Bonds\n\n1 1 1 2\n\nBond Coeffs # harmonic\n\n1 100 1\n");
+  ASSERT_TRUE(
+      notes(bonds,
+            "note: 'a': left aside of m.data: mol, iz (a class with fields of these names gets them); section Bonds "
+            "(1 lines; `bonds` of the ensemble gives them); section Bond Coeffs ([[influences]] give laws)"));
   EXPECT_EQ(field(bonds, "velocity"), (Numbers{1, 2, 3, 4, 5, 6}));
   // A quiet run says nothing.
   EXPECT_EQ(bonds.run({"--quiet"}).err, "");
@@ -241,17 +250,20 @@ TEST(Files, WhatIsLeftAsideIsTold) {
   write_text(units / "v.xyz", "1\nProperties=species:S:1:pos:R:3:velo:R:3\nAr 1 1 1 5 5 5\n");
   EXPECT_TRUE(notes(units, "v.xyz has no units, and is read in those of the base (velocity in angstrom/ps)"));
   // Particles of two ensembles.
-  Case const twice("twice", scenario("path = \"one.pdb\"") +
-                                "[[ensembles]]\nname = \"b\"\nclass = \"Newton\"\nload = { kind = \"file\", path = \"one.pdb\", "
-                                "species = \"Ar\" }\n");
-  EXPECT_TRUE(contains(twice.check().err, "warning: one.pdb, frame 0: several ensembles take the particles of species "
-                                          "'Ar' (1)"));
+  Case const twice("twice",
+                   scenario("path = \"one.pdb\"") +
+                       "[[ensembles]]\nname = \"b\"\nclass = \"Newton\"\nload = { kind = \"file\", path = \"one.pdb\", "
+                       "species = \"Ar\" }\n");
+  EXPECT_TRUE(contains(twice.check().err,
+                       "warning: one.pdb, frame 0: several ensembles take the particles of species "
+                       "'Ar' (1)"));
 }
 
 TEST(Files, MomentaOfAseAreVelocities) {
   // ASE: p = m v; a velocity of 1 angstrom/fs is 1 / (0.1018051) of ASE's, 10.180505 fs being its unit of time.
-  std::string const text = "1\nLattice=\"10 0 0 0 10 0 0 0 10\" Properties=species:S:1:pos:R:3:momenta:R:3 pbc=\"T T T\"\n"
-                           "Cu 1 2 3 63.546 0 -127.092\n";
+  std::string const text =
+      "1\nLattice=\"10 0 0 0 10 0 0 0 10\" Properties=species:S:1:pos:R:3:momenta:R:3 pbc=\"T T T\"\n"
+      "Cu 1 2 3 63.546 0 -127.092\n";
   Case const plain("plain", scenario("path = \"p.xyz\"")), ase("ase", scenario("path = \"p.xyz\", units = \"ase\""));
   write_text(plain / "p.xyz", text);
   write_text(ase / "p.xyz", text);
@@ -275,10 +287,11 @@ TEST(Files, FilesAreKnownByTheirContentAndMayBeCompressed) {
     return ran.status == 0 ? field(one, "mass") : Numbers{};
   };
   for (bool const packed : {false, true})
-    EXPECT_EQ(mass("", "data.melt", text_of(std::filesystem::path(BOLTZMANN_SOURCE) / "tests/cases/files/same-label.data"),
-                   packed),
+    EXPECT_EQ(mass("", "data.melt",
+                   text_of(std::filesystem::path(BOLTZMANN_SOURCE) / "tests/cases/files/same-label.data"), packed),
               (Numbers{12.011, 12.011}));
-  EXPECT_EQ(mass("", "melt.data.gz", text_of(std::filesystem::path(BOLTZMANN_SOURCE) / "tests/cases/files/same-label.data"), true),
+  EXPECT_EQ(mass("", "melt.data.gz",
+                 text_of(std::filesystem::path(BOLTZMANN_SOURCE) / "tests/cases/files/same-label.data"), true),
             (Numbers{12.011, 12.011}));
   // A truncated and a damaged file, and one that is not what it says.
   std::string text;
@@ -303,7 +316,8 @@ TEST(Files, AFrameOfARunInAnotherBaseIsConverted) {
   write_text(first / "v.xyz", "1\nProperties=species:S:1:pos:R:3:velo:R:3\nAr 1 2 3 5 0 0\n");
   ASSERT_EQ(first.run().status, 0);
   std::string const text =
-      "[units]\nbase = \"si\"\n[box]\nlow = [0, 0, 0]\nhigh = [1.1e-9, 1e-9, 1e-9]\nboundary = \"periodic\"\n[run]\nstep = "
+      "[units]\nbase = \"si\"\n[box]\nlow = [0, 0, 0]\nhigh = [1.1e-9, 1e-9, 1e-9]\nboundary = "
+      "\"periodic\"\n[run]\nstep = "
       "1e-15\nsteps = 0\n[[ensembles]]\nname = \"a\"\nclass = \"Newton\"\nload = { kind = \"frame\", path = "
       "\"stored.h5\" }\n[output]\ntrajectory = 1\n";
   Case const second("second", text);
@@ -331,24 +345,29 @@ std::string finnis_sinclair() {
     for (int b = 0; b < 2; ++b) text += rows([&](int k) { return (1 + a + 2 * b) * std::pow(1 - k * dr / 4, 3); });
   }
   for (int a = 0; a < 2; ++a)
-    for (int b = 0; b <= a; ++b) text += rows([&](int k) { return k * dr * (1 + a + b) * std::pow(1 - k * dr / 4, 4); });
+    for (int b = 0; b <= a; ++b)
+      text += rows([&](int k) { return k * dr * (1 + a + b) * std::pow(1 - k * dr / 4, 4); });
   return text;
 }
 
 TEST(Files, AnAlloyOfFinnisAndSinclairFromACompressedFile) {
   std::string text =
       "[units]\nbase = \"custom\"\nlength = \"1 angstrom\"\nmass = \"1 amu\"\ntime = \"1 ps\"\n[box]\nlow = [0, 0, 0]\n"
-      "high = [20, 20, 20]\n[run]\nstep = 0.0001\nsteps = 1\n[embedded_atoms]\npotential = \"file\"\nfile = \"x.eam.fs.gz\"\n";
+      "high = [20, 20, 20]\n[run]\nstep = 0.0001\nsteps = 1\n[embedded_atoms]\npotential = \"file\"\nfile = "
+      "\"x.eam.fs.gz\"\n";
   for (auto const& [name, element, x] : {std::tuple{"iron", "Fe", 5}, std::tuple{"chrome", "Cr", 7}})
-    text += fmt::format("[[ensembles]]\nname = \"{}\"\nclass = \"Newton\"\nelement = \"{}\"\n"
-                        "load = {{ kind = \"positions\", positions = [[{}, 5, 5]] }}\n",
-                        name, element, x);
-  Case const one("alloy", text + "[output]\ndiagnoses = 1\nunits = { energy = \"eV\" }\n[[diagnoses]]\nkind = \"energies\"\n");
+    text += fmt::format(
+        "[[ensembles]]\nname = \"{}\"\nclass = \"Newton\"\nelement = \"{}\"\n"
+        "load = {{ kind = \"positions\", positions = [[{}, 5, 5]] }}\n",
+        name, element, x);
+  Case const one("alloy",
+                 text + "[output]\ndiagnoses = 1\nunits = { energy = \"eV\" }\n[[diagnoses]]\nkind = \"energies\"\n");
   write_gz(one / "x.eam.fs.gz", finnis_sinclair());
   auto const ran = one.run();
   ASSERT_EQ(ran.status, 0) << ran.err;
   // Two atoms 2 apart: V = 2/16, rho of Cr at Fe = 2/8, of Fe at Cr = 3/8.
-  EXPECT_NEAR(one.column("potential energy (eV)")[0], 2.0 / 16 - 1.5 * std::sqrt(2.0 / 8) - 2.5 * std::sqrt(3.0 / 8), 2e-5);
+  EXPECT_NEAR(one.column("potential energy (eV)")[0], 2.0 / 16 - 1.5 * std::sqrt(2.0 / 8) - 2.5 * std::sqrt(3.0 / 8),
+              2e-5);
 }
 
 }  // namespace

@@ -41,7 +41,8 @@ OptionTable const& embedded_atom_options() {  // long: a table, a row for each k
     all.add_said("elements", "a table, { atoms = \"Cu\" }", "of a file with several: the element of each ensemble",
                  "the ensemble's name");
     all.add("file", &E::file, path(),
-            "of `\"file\"`, from the scenario's folder: tables in eV and angstrom: setfl (eam.alloy, eam.fs) or funcfl, also compressed by gzip");
+            "of `\"file\"`, from the scenario's folder: tables in eV and angstrom: setfl (eam.alloy, eam.fs) or "
+            "funcfl, also compressed by gzip");
     all.at("file").needed = "\"Cu.eam.alloy\"";
     add("epsilon", &E::sutton_chen, &SuttonChen::epsilon, dimensions::energy,
         "of `\"sutton-chen\"`: the energy of pairs a apart", "\"12.382 meV\"");
