@@ -424,7 +424,7 @@ Item alike(Item const& table, ReadEnsemble const& of, Reading& reading) {
 
 /// Particles of files that no ensemble takes, or several.
 void note_species(Reading& reading) {
-  for (auto const& [name, file] : reading.files) {
+  for (auto const& [path, file] : reading.files) {
     std::vector<std::string> none, several;
     for (auto const& [word, species] : file.species) {
       std::string const text = fmt::format("'{}' ({})", quoted(word), species.particles);
@@ -432,12 +432,12 @@ void note_species(Reading& reading) {
       if (species.ensembles > 1) several.push_back(text);
     }
     if (!none.empty())
-      reading.note(fmt::format("note: {}: no ensemble takes the particles of species {}", name, some_of(none)));
+      reading.note(fmt::format("note: {}: no ensemble takes the particles of species {}", file.name, some_of(none)));
     if (!several.empty())
       reading.note(
           fmt::format("warning: {}: several ensembles take the particles of species {}, which are there several "
                       "times; write `species` in each load",
-                      name, some_of(several)));
+                      file.name, some_of(several)));
   }
 }
 

@@ -602,7 +602,8 @@ std::vector<std::string> Loader::notes(AnyEnsemble const& particles, std::vector
 
 void Loader::count_species_taken() const {
   if (!reads_file()) return;
-  auto& file = reading_.files[fmt::format("{}, frame {}", file_name(), options_.frame)];
+  auto& file = reading_.files[fmt::format("{}, frame {}", options_.path, options_.frame)];
+  file.name = file_name();
   if (file.species.empty())
     for (auto const& word : frame_.species) ++file.species[word].particles;
   for (auto const& word : words_of_species(frame_, options_.species))

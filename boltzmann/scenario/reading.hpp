@@ -152,7 +152,8 @@ struct ReadFile {
   struct Species {
     std::size_t particles = 0, ensembles = 0;
   };
-  std::map<std::string, Species> species;
+  std::string name = {};  ///< without its folder
+  std::map<std::string, Species> species = {};
 };
 
 /// Everything that has been read so far. What could not be read is empty, and has left a mistake.

@@ -194,7 +194,10 @@ TEST(Files, AnOpenBoxIsExportedWithAllAtomsInside) {
     EXPECT_LT(length, 16.7) << text;
     EXPECT_EQ((*frame.lattice)[0], 10);
   }
-  EXPECT_TRUE(contains(text_of(one / "last.data"), "-2.0165 14.5165 ylo yhi")) << text_of(one / "last.data");
+  auto const text = text_of(one / "last.data");
+  auto const line = text.rfind('\n', text.find("ylo")) + 1;
+  EXPECT_LT(std::stod(text.substr(line)), -2) << text;
+  EXPECT_GT(std::stod(text.substr(text.find(' ', line))), 14.5) << text;
 }
 
 TEST(Files, ExportsNameElements) {
@@ -255,7 +258,7 @@ TEST(Files, WhatIsLeftAsideIsTold) {
                        "[[ensembles]]\nname = \"b\"\nclass = \"Newton\"\nload = { kind = \"file\", path = \"one.pdb\", "
                        "species = \"Ar\" }\n");
   EXPECT_TRUE(contains(twice.check().err,
-                       "warning: one.pdb, frame 0: several ensembles take the particles of species "
+                       "warning: one.pdb: several ensembles take the particles of species "
                        "'Ar' (1)"));
 }
 
