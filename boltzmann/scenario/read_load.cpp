@@ -131,6 +131,8 @@ bool Loader::read(std::optional<std::size_t> number, Place const& number_place, 
   }
   if (variant_ && !fits_memory(own_count, *variant_, number ? number_place : place_, reading_)) return false;
   count_ = static_cast<std::size_t>(own_count);
+  if (count_ == 0 && reading_.context.mistakes.count() == 0)
+    reading_.mistake(place_, fmt::format("load \"{}\" gives no particles", *name));
   return count_ > 0;
 }
 
@@ -497,8 +499,11 @@ double Loader::read_file() {
         throw Error("path: " + line);
     });
   double count = 0;
-  catch_errors(reading_, section_.place(section_.has("species") ? "species" : "path"),
-               [&] { count = static_cast<double>(count_species(frame_, options_.species)); });
+  catch_errors(reading_, section_.place(section_.has("species") ? "species" : "path"), [&] {
+    count = static_cast<double>(count_species(frame_, options_.species));
+    if (count == 0)
+      throw Error(fmt::format("path: frame {} of '{}' has no particles", options_.frame, file_name()));
+  });
   return count;
 }
 

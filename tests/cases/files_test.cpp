@@ -227,6 +227,17 @@ TEST(Files, ExportsNameElements) {
 
 TEST(Files, AModelThatEndsTwiceIsRefused) {
   EXPECT_TRUE(refuses(Case("crash"), "ENDMDL without a MODEL or atoms before it"));
+  // A frame without particles, which was the crash, in other formats.
+  for (auto const& [file, text] : {std::pair{"e.xyz", "0\n\n"},
+                                   {"e.data", "c\n\n0 atoms\n1 atom types\n\nAtoms # atomic\n\n"},
+                                   {"e.dump", "ITEM: NUMBER OF ATOMS\n0\nITEM: ATOMS id x y z\n"},
+                                   {"e.pdb", "MODEL        1\nENDMDL\n"},
+                                   {"e.gro", "t\n0\n 1 1 1\n"},
+                                   {"e.vasp", "t\n1\n10 0 0\n0 10 0\n0 0 10\nNa\n0\nDirect\n"}}) {
+    Case const one("empty", scenario(std::string("path = \"") + file + "\""));
+    write_text(one / file, text);
+    EXPECT_TRUE(refuses(one, "has no particles")) << file;
+  }
 }
 
 TEST(Files, WhatIsLeftAsideIsTold) {
