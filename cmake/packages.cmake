@@ -36,9 +36,9 @@ endif()
 
 # What libboltzmann.a needs: Debian's packages, and the same as pkg-config's. The config files for CMake and pkg-config are made
 # from this.
-set(BOLTZMANN_REQUIRES fmt fftw3 cairo hdf5)
+set(BOLTZMANN_REQUIRES fmt fftw3 cairo hdf5 zlib)
 string(REPLACE ";" " " BOLTZMANN_REQUIRES_WORDS "${BOLTZMANN_REQUIRES}")
-set(BOLTZMANN_DEV_PACKAGES "libfmt-dev, libfftw3-dev, libcairo2-dev, libhdf5-dev")
+set(BOLTZMANN_DEV_PACKAGES "libfmt-dev, libfftw3-dev, libcairo2-dev, libhdf5-dev, zlib1g-dev")
 include(CMakePackageConfigHelpers)
 set(config_folder ${CMAKE_INSTALL_LIBDIR}/cmake/boltzmann)
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/boltzmann-config.cmake.in ${CMAKE_CURRENT_BINARY_DIR}/boltzmann-config.cmake

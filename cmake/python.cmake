@@ -55,7 +55,7 @@ target_include_directories(python_module SYSTEM PRIVATE ${PYBIND11_HEADERS})
 target_compile_options(python_module PRIVATE -Wall -Wextra -Wno-psabi $<$<CONFIG:Release,RelWithDebInfo>:-O1>)
 # Shared libraries: archives are not position-independent, and h5py in the same process has its HDF5, too.
 target_include_directories(python_module PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
-target_link_libraries(python_module PRIVATE $<TARGET_FILE:boltzmann> fmt::fmt PkgConfig::FFTW PkgConfig::CAIRO ${HDF5_LIBRARIES} Threads::Threads ${CMAKE_DL_LIBS})
+target_link_libraries(python_module PRIVATE $<TARGET_FILE:boltzmann> fmt::fmt PkgConfig::FFTW PkgConfig::CAIRO PkgConfig::ZLIB ${HDF5_LIBRARIES} Threads::Threads ${CMAKE_DL_LIBS})
 add_dependencies(python_module boltzmann)
 if(BOLTZMANN_WINDOW)
   target_compile_definitions(python_module PRIVATE BOLTZMANN_WITH_WINDOW)

@@ -68,12 +68,12 @@ std::vector<std::string> words_of(std::string const& text) {
 
 // What libboltzmann.a itself needs.
 std::vector<std::string> dependencies() {
-  auto words = words_of(output_of({"pkg-config", "--libs", "fftw3", "cairo", "hdf5"}));
+  auto words = words_of(output_of({"pkg-config", "--libs", "fftw3", "cairo", "hdf5", "zlib"}));
   if (!words.empty()) return words;
   words = {"-lfftw3", "-lcairo"};
   for (auto const* folder : {"/usr/lib/x86_64-linux-gnu/hdf5/serial", "/usr/lib/aarch64-linux-gnu/hdf5/serial"})
     if (fs::exists(folder)) words.push_back(std::string("-L") + folder);
-  words.emplace_back("-lhdf5");
+  for (char const* one : {"-lhdf5", "-lz"}) words.emplace_back(one);
   return words;
 }
 

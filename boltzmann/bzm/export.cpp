@@ -68,6 +68,12 @@ int export_run(ExportRun const& options) {
   clear();
   fmt::print("{}: {} frame{}, {}, units: {}\n", options.out, report.frames, report.frames == 1 ? "" : "s",
              join(report.names), report.units);
+  for (auto const& [name, species] : report.no_elements)
+    fmt::print(
+        stderr,
+        "note: '{}' is no chemical symbol, which ASE and others need; write --species {}=Cu, or element = \"Cu\" in "
+        "the ensemble\n",
+        species, name);
   return 0;
 }
 

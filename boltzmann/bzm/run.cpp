@@ -37,6 +37,13 @@ void print_heading(ScenarioSimulation const& scenario, std::string const& folder
   std::fflush(stdout);
 }
 
+/// What files hold that nothing uses, and groups without a particle: warnings also where all else is quiet.
+void print_notes(ScenarioSimulation const& scenario, bool quiet) {
+  if (!team().first()) return;
+  for (auto const& line : scenario.notes)
+    if (!quiet || line.starts_with("warning")) fmt::print(stderr, "{}\n", line);
+}
+
 void refuse_in_window(std::optional<double> const& hours, WindowRun const& window) {
   if (hours && window.open) throw Error("--hours is for runs without a --window, where somebody may pause and go on");
 }
@@ -82,6 +89,7 @@ int run(RunOptions const& options) {
     throw Error("'" + folder +
                 "' already holds a sweep; go on with it by bzm resume, choose another folder, or replace "
                 "it with --force");
+  print_notes(*scenario, options.quiet);
   if (scenario->sweep && options.window.open) {
     if (!options.quiet) fmt::print("this scenario is a sweep; the window shows the first of its runs\n");
     Overrides first = overrides;
@@ -167,6 +175,7 @@ int resume(ResumeOptions const& options) {
   if (auto const stored = checkpoint.state.find("planned"); stored != checkpoint.state.end() && !stored->second.empty())
     planned = static_cast<std::int64_t>(stored->second[0]);
   if (options.steps) planned = checkpoint.step + *options.steps;
+  print_notes(*scenario, options.quiet);
   auto const recording = make_recording(*scenario, options.folder, {.overwrite = true});
   recording->resume();
   recording->planned(planned);
@@ -194,6 +203,7 @@ int check(std::string const& name, Overrides const& overrides) {
   recording->check();
   if (energies_can_be_checked(*scenario->simulation))
     need_finite(*scenario->simulation, conserved(*scenario->simulation));
+  print_notes(*scenario, false);
   print_warnings(*scenario->simulation, {.quiet = true});
   std::size_t particles = 0, bytes = 0;
   for (auto const& scheme : scenario->schemes) bytes += scheme->bytes();  // now that lists and meshes are there

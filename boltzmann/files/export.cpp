@@ -234,22 +234,23 @@ std::string xyz_text(ExportFrame const& frame) { return xyz(frame, true); }
 std::string dump_text(ExportFrame const& frame) {
   std::vector<ExportField> const fields = common_fields(frame.particles);
   int const dimension = frame.particles.empty() ? 3 : frame.particles.front().dimension;
-  auto const [low, high] = finite_edges(frame);
+  auto const edges = finite_edges(frame);
   std::string text =
       fmt::format("ITEM: TIMESTEP\n{}\nITEM: NUMBER OF ATOMS\n{}\nITEM: BOX BOUNDS", frame.step, count_of(frame));
   for (int axis = 0; axis < 3; ++axis) {
     bool const there = axis < frame.box.dimension;
     text += ' ';
     for (bool const lower : {true, false}) {
-      double const edge = !there ? 0 : lower ? frame.box.low[axis] : frame.box.high[axis];
-      text += !std::isfinite(edge) ? 's' : there && frame.box.periodic[axis] ? 'p' : 'f';
+      auto const a = static_cast<std::size_t>(axis);
+      bool const moved = lower ? edges.moved_low[a] : edges.moved_high[a];
+      text += moved ? 's' : there && frame.box.periodic[axis] ? 'p' : 'f';
     }
   }
   for (std::size_t axis = 0; axis < 3; ++axis) {
     text += '\n';
-    append_number(text, low[axis]);
+    append_number(text, edges.low[axis]);
     text += ' ';
-    append_number(text, high[axis]);
+    append_number(text, edges.high[axis]);
   }
   text += "\nITEM: ATOMS id type element";
   for (auto const& field : fields)

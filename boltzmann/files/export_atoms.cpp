@@ -85,13 +85,40 @@ FiniteEdges finite_edges(ExportFrame const& frame) {
           first = std::min(first, value_of(*position, i, axis));
           last = std::max(last, value_of(*position, i, axis));
         }
-    if (!(first <= last)) first = last = 0;
+    bool const any = first <= last;
+    if (!any) first = last = 0;
     auto const a = static_cast<std::size_t>(axis);
-    edges.low[a] = std::isfinite(frame.box.low[axis]) ? frame.box.low[axis] : first;
-    edges.high[a] = std::isfinite(frame.box.high[axis]) ? frame.box.high[axis] : last;
+    double const low = frame.box.low[axis], high = frame.box.high[axis];
+    edges.moved_low[a] = !std::isfinite(low) || (!frame.box.periodic[axis] && any && first < low);
+    edges.moved_high[a] = !std::isfinite(high) || (!frame.box.periodic[axis] && any && last > high);
+    edges.low[a] = edges.moved_low[a] ? first : low;
+    edges.high[a] = edges.moved_high[a] ? last : high;
+    if (edges.low[a] > edges.high[a]) edges.low[a] = edges.high[a];  // no particle, and one edge is infinite
   }
   return edges;
 }
+
+namespace {
+
+/// With room beyond the outermost particles: LAMMPS' read_data wants them below an upper edge, not on it.
+FiniteEdges edges_for_lammps(ExportFrame const& frame) {
+  auto edges = finite_edges(frame);
+  for (int axis = 0; axis < frame.box.dimension; ++axis) {
+    if (frame.box.periodic[axis]) continue;
+    auto const a = static_cast<std::size_t>(axis);
+    double const room = 1e-3 * (edges.high[a] - edges.low[a]);
+    bool on_high = edges.moved_high[a];
+    for (auto const& particles : frame.particles)
+      if (auto const* position = field_of(particles, "position"))
+        for (std::size_t i = 0; i < particles.size && !on_high; ++i)
+          on_high = value_of(*position, i, axis) >= edges.high[a];
+    if (edges.moved_low[a]) edges.low[a] -= room;
+    if (on_high) edges.high[a] += room;
+  }
+  return edges;
+}
+
+}  // namespace
 
 std::string lammps_data_text(ExportFrame const& frame) {
   bool const masses = all_have(frame, "mass"), moves = all_have(frame, "velocity");
@@ -101,7 +128,7 @@ std::string lammps_data_text(ExportFrame const& frame) {
   std::string text =
       fmt::format("LAMMPS data file by Boltzmann, step {}{}{}\n\n{} atoms\n{} atom types\n\n", frame.step,
                   style.empty() ? "" : ", units = ", style, number_of(frame), frame.particles.size());
-  auto const edges = finite_edges(frame);
+  auto const edges = edges_for_lammps(frame);
   for (std::size_t a = 0; a < 3; ++a) {
     bool const thin = !(edges.low[a] < edges.high[a]);  // LAMMPS wants a box with a volume
     append_number(text, edges.low[a] - (thin ? 0.5 : 0));

@@ -8,10 +8,12 @@
 
 namespace boltzmann {
 
-/// The edges of a frame's box, as files have them that need finite ones in three dimensions: an infinite edge is where
-/// the last particle is, axes that the space lacks go from -0.5 to 0.5.
+/// The edges of a frame's box, as files have them that need finite ones in three dimensions. Along axes that are not
+/// periodic, an infinite edge is where the last particle is, and so is an edge beyond which particles are. Axes that the
+/// space lacks go from -0.5 to 0.5.
 struct FiniteEdges {
   std::array<double, 3> low{-0.5, -0.5, -0.5}, high{0.5, 0.5, 0.5};
+  std::array<bool, 3> moved_low{}, moved_high{};  ///< the edge is where the last particle is
 };
 FiniteEdges finite_edges(ExportFrame const& frame);
 

@@ -182,6 +182,8 @@ void Trajectory::State::lay_out(AnyEnsemble const& ensemble, std::size_t index, 
   file->set_fixed(group, "class", ensemble.class_name());
   file->set(group, "dimension", static_cast<std::int64_t>(ensemble.dimension()));
   file->set(group, "index", static_cast<std::int64_t>(index));
+  for (auto const& [name, element] : options.elements)
+    if (name == ensemble.name()) file->set_fixed(group, "boltzmann_element", element);
   if (is_first) {
     file->create_group(group + "/position");
     file->create_growing(group + "/position/step", Number::integer, {0}, {1024}, {true});

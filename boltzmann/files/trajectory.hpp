@@ -20,6 +20,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace boltzmann {
@@ -35,6 +36,7 @@ struct TrajectoryOptions {
   std::function<double(Dimension)> factor;   ///< numbers are written times this, to be in that unit; empty: as they are
   std::vector<std::string> constant_fields;  ///< written once (for example mass, charge); never position or velocity
   bool sizes_change = false;                 ///< ensembles may grow far beyond what they are in the first frame
+  std::vector<std::pair<std::string, std::string>> elements = {};  ///< of ensembles: "atoms", "Cu"
   bool three_columns = true;  ///< position and velocity get 3 columns in 1D and 2D too, as most readers want
 };
 
@@ -97,6 +99,7 @@ class TrajectoryReader {
     std::string name, class_name;
     int dimension;
     std::vector<StoredField> fields;
+    std::string element = {};  ///< "Cu"; empty: not told
   };
 
   /// Error (one line) if the file is missing, no HDF5, truncated, or no trajectory of ours. What is damaged in it is an

@@ -1,4 +1,5 @@
 // Frames go from the reader, field by field, through a change of units, to the writer of a format.
+#include <boltzmann/core/elements.hpp>
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/files/export.hpp>
 #include <boltzmann/files/export_atoms.hpp>
@@ -11,6 +12,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <cstdint>
 #include <filesystem>
@@ -35,10 +37,17 @@ std::unique_ptr<FrameWriter> writer_of(std::string const& path) {
 }
 
 constexpr std::array all_formats{
-    ExportFormat{"extended XYZ", ".xyz .extxyz",
+    ExportFormat{"extended XYZ",
+                 ".xyz .extxyz",
                  "all frames as text: box, species, id, pos, velo and the other fields that the ensembles share",
-                 "OVITO, ASE, MDAnalysis and VMD (these two: positions alone)", writer_of<xyz_text>, Fields::shared,
-                 Frames::all, true},
+                 "OVITO, ASE, MDAnalysis and VMD (these two: positions alone)",
+                 writer_of<xyz_text>,
+                 Fields::shared,
+                 Frames::all,
+                 true,
+                 nullptr,
+                 {},
+                 true},
     ExportFormat{"LAMMPS dump", ".dump .lammpstrj",
                  "all frames as text: box, id, type, element, x y z, vx vy vz, mass, q and the other fields",
                  "OVITO, VMD, MDAnalysis, ASE", writer_of<dump_text>, Fields::shared, Frames::all, true},
@@ -48,13 +57,13 @@ constexpr std::array all_formats{
                  true, nullptr, "position velocity mass charge"},
     ExportFormat{"PDB", ".pdb .ent", "all frames as models: box and positions in angstrom",
                  "VMD, PyMOL, MDAnalysis, ASE", writer_of<pdb_text>, Fields::known, Frames::all, true, &in_angstrom,
-                 "position"},
+                 "position", true},
     ExportFormat{"GRO", ".gro", "all frames: box, positions and velocities in nm and nm/ps",
                  "GROMACS, VMD, MDAnalysis, ASE", writer_of<gro_text>, Fields::known, Frames::all, true, &in_nanometers,
                  "position velocity"},
     ExportFormat{"POSCAR", ".poscar .vasp POSCAR CONTCAR", "one frame (the last): box, positions and velocities",
                  "VASP, VESTA, OVITO, ASE", writer_of<poscar_text>, Fields::known, Frames::one, true, &in_femtoseconds,
-                 "position velocity"},
+                 "position velocity", true},
     ExportFormat{"H5MD", ".h5md",
                  "all frames of all ensembles as one group: positions, velocities, species, masses, charges",
                  "MDAnalysis, h5py", h5md_writer, Fields::known, Frames::all, true, &in_picoseconds,
@@ -200,6 +209,7 @@ ExportFrame frame_of(TrajectoryReader const& reader, std::size_t number, std::ve
   frame.box = reader.box(number, TrajectoryReader::Numbers::written);
   for (auto const& [ensemble, fields, first_id] : chosen) {
     ExportParticles particles{ensemble->name, ensemble->dimension, reader.size(number, ensemble->name), first_id, {}};
+    particles.species = ensemble->element;
     for (auto const& [name, species] : options.species)
       if (name == ensemble->name) particles.species = species;
     for (auto const* field : fields) {
@@ -254,13 +264,18 @@ ExportReport export_trajectory(TrajectoryReader const& reader, std::string const
     next_id += static_cast<std::int64_t>(most);
   }
 
-  ExportReport report{0, units.name(), {}};
+  ExportReport report{0, units.name(), {}, {}};
   auto const writer = format.make(path);
   for (auto const number : frames) {
     std::vector<std::vector<double>> memory;
     auto frame = frame_of(reader, number, chosen, units, options, memory);
     frame.number = report.frames;
     if (report.frames == 0) report.names = names_of(frame, format.fields);
+    if (report.frames == 0 && format.elements)
+      for (auto const& particles : frame.particles)
+        if (auto const species = species_of(particles);
+            !find_element(species) || std::isdigit(static_cast<unsigned char>(species[0])) != 0)
+          report.no_elements.emplace_back(particles.name, species);
     writer->write(frame);
     ++report.frames;
     if (options.progress) options.progress(report.frames, frames.size());

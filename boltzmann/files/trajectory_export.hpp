@@ -30,6 +30,7 @@ struct ExportFormat {
   bool of_atoms = false;                 ///< its readers expect units of atoms, where a run is one of atoms
   UnitStyle const* own_units = nullptr;  ///< which it is always in; null: any
   std::string_view known = {};           ///< the fields that it knows, separated by blanks
+  bool elements = false;                 ///< its readers expect symbols of elements
 };
 std::span<ExportFormat const> export_formats();
 /// The format that a path's ending asks for; Error that names all if it asks for none.
@@ -57,6 +58,7 @@ struct ExportReport {
   std::size_t frames = 0;
   std::string units;               ///< "metal", "si", "run", ..., those of the format, or "none": the run has none
   std::vector<std::string> names;  ///< of the fields
+  std::vector<std::pair<std::string, std::string>> no_elements;  ///< ensembles whose word is no symbol, and that word
 };
 
 /// Writes the frames into the file `path`; .pvd: into it and a folder of the same name. What is being written has

@@ -172,6 +172,7 @@ TrajectoryReader::TrajectoryReader(std::string path) : state_(std::make_unique<S
   for (auto const& name : layout::ensembles(file)) {
     std::string const group = "/particles/" + name;
     StoredEnsemble ensemble{name, file.text(group, "class"), static_cast<int>(file.integer(group, "dimension")), {}};
+    if (file.has(group, "boltzmann_element")) ensemble.element = file.text(group, "boltzmann_element");
     std::vector<std::pair<std::int64_t, StoredField>> fields;
     for (auto const& element : file.children(group)) {
       if (element == "box" || element == "count" || element == "id" || element == "species") continue;

@@ -87,8 +87,8 @@ class EmbeddedAtoms {
             [&](std::size_t, std::size_t, double r) { return density(r); }, reach, tolerance) {}
   EmbeddedAtoms(SuttonChen const& law, EmbeddedReach const& reach);
   EmbeddedAtoms(Gupta const& law, EmbeddedReach const& reach);
-  /// The tables of a file in the format setfl (eam.alloy: several elements) or funcfl (one), in eV and angstrom, as far as
-  /// their cut-off. The numbers are splined as they stand. Error, "file:line: what is wrong".
+  /// The tables of a file in the format setfl (eam.alloy, eam.fs: several elements) or funcfl (one), in eV and angstrom, as
+  /// far as their cut-off. The numbers are splined as they stand. Error, "file:line: what is wrong".
   static EmbeddedAtoms from_file(std::string const& path, UnitSystem const& units);
 
   std::vector<EmbeddedElement> const& elements() const { return elements_; }

@@ -1,4 +1,5 @@
-// Files of embedded atoms: setfl (eam.alloy) and funcfl, in eV and angstrom, as LAMMPS describes them.
+// Files of embedded atoms: setfl (eam.alloy), its variant of Finnis and Sinclair (eam.fs) and funcfl, in eV and angstrom, as
+// LAMMPS describes them.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/input_file.hpp>
 #include <boltzmann/laws/embedding_table.hpp>
@@ -9,8 +10,10 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <fstream>
+#include <istream>
+#include <memory>
 #include <string_view>
+#include <utility>
 
 namespace boltzmann {
 namespace {
@@ -23,27 +26,34 @@ constexpr double spline_error = 1e-5;  // error of splines through splines
 /// Reads the words of a text file, one after the other.
 class WordReader {
  public:
-  explicit WordReader(std::string path) : path_(std::move(path)) {
-    need_regular_file(path_);
-    file_.open(path_);
-    if (!file_) throw Error(fmt::format("{}: can't open the file", path_));
-  }
+  explicit WordReader(std::string path) : path_(std::move(path)), file_(open_text(path_, "file")) {}
 
   /// What is left of the line, and goes to the next.
   std::vector<std::string> line(std::string const& what) {
-    std::string text;
     ++number_;
-    if (!read_line(file_, text, path_))
+    if (std::exchange(again_, false)) return last_;
+    std::string text;
+    if (!read_line(*file_, text, path_))
       throw Error(fmt::format("{}: the file ends before line {}, {}", path_, number_, what));
-    std::vector<std::string> words;
-    constexpr std::string_view blank = " \t\r\f\v,";
-    for (std::string_view rest = text;;) {
-      auto const begin = rest.find_first_not_of(blank);
-      if (begin == std::string_view::npos) return words;
-      auto const end = std::min(rest.find_first_of(blank, begin), rest.size());
-      words.emplace_back(rest.substr(begin, end - begin));
-      rest.remove_prefix(end);
-    }
+    return last_ = words_of(text);
+  }
+  /// The words of the next line, which stays the next one.
+  std::vector<std::string> peek(std::string const& what) {
+    auto words = line(what);
+    --number_;
+    again_ = true;
+    return words;
+  }
+  /// Error if more numbers follow, as in files of other potentials (adp); text may.
+  void end() {
+    std::string text;
+    double number = 0;
+    for (++number_; read_line(*file_, text, path_); ++number_)
+      if (auto const words = words_of(text);
+          !words.empty() &&
+          std::from_chars(words[0].data(), words[0].data() + words[0].size(), number).ec == std::errc{})
+        throw wrong(fmt::format("'{}' follows the last table; eam.alloy, eam.fs and funcfl can be read, adp can't",
+                                quoted(words[0])));
   }
   /// So many numbers from the next line on, as many on each as there are; what is behind the last is an error.
   std::vector<double> numbers(std::size_t count, std::string const& what) {
@@ -72,8 +82,22 @@ class WordReader {
   Error wrong(std::string const& what) const { return Error(fmt::format("{}:{}: {}", path_, number_, what)); }
 
  private:
+  static std::vector<std::string> words_of(std::string_view rest) {
+    std::vector<std::string> words;
+    constexpr std::string_view blank = " \t\r\f\v,";
+    while (true) {
+      auto const begin = rest.find_first_not_of(blank);
+      if (begin == std::string_view::npos) return words;
+      auto const end = std::min(rest.find_first_of(blank, begin), rest.size());
+      words.emplace_back(rest.substr(begin, end - begin));
+      rest.remove_prefix(end);
+    }
+  }
+
   std::string path_;
-  std::ifstream file_;
+  std::unique_ptr<std::istream> file_;
+  std::vector<std::string> last_;
+  bool again_ = false;
   int number_ = 0;
 };
 
@@ -104,23 +128,38 @@ FileSpacing read_spacing(WordReader& words) {
 struct FileTables {
   FileSpacing spacing;
   std::vector<std::string> names;
-  std::vector<std::vector<double>> embedding, density, pair;  ///< pairs: (0, 0), (1, 0), (1, 1), ...; times distance
+  std::vector<std::vector<double>> embedding, pair;       ///< pairs: (0, 0), (1, 0), (1, 1), ...; times distance
+  std::vector<std::vector<std::vector<double>>> density;  ///< [of an atom of this element][at an atom of that one]
 };
+
+/// "29 63.55 3.615 fcc"
+bool is_head_of_element(std::vector<std::string> const& words) {
+  return words.size() > 2 && (words.back()[0] | 32) >= 'a' && (words.back()[0] | 32) <= 'z';
+}
 
 FileTables read_setfl(WordReader& words, std::vector<std::string> const& elements) {
   FileTables tables;
   tables.names.assign(elements.begin() + 1, elements.end());
   tables.spacing = read_spacing(words);
-  for (auto const& name : tables.names) {
+  std::size_t const count = tables.names.size();
+  bool finnis_sinclair = false;  // each element has a density for every element at which it acts
+  for (std::size_t a = 0; a < count; ++a) {
+    auto const& name = tables.names[a];
     if (words.line(fmt::format("the atomic number, mass and lattice of {}", name)).size() < 2)
       throw words.wrong(fmt::format("the atomic number, mass and lattice of {} are needed here", name));
     tables.embedding.push_back(words.numbers(tables.spacing.densities, "embedding energies of " + name));
-    tables.density.push_back(words.numbers(tables.spacing.distances, "densities of " + name));
+    std::vector<std::vector<double>> densities{words.numbers(tables.spacing.distances, "densities of " + name)};
+    if (a == 0 && count > 1) finnis_sinclair = !is_head_of_element(words.peek("what follows the densities of " + name));
+    while (finnis_sinclair && densities.size() < count)
+      densities.push_back(words.numbers(tables.spacing.distances,
+                                        fmt::format("densities of {} at {}", name, tables.names[densities.size()])));
+    tables.density.push_back(std::move(densities));
   }
-  for (std::size_t a = 0; a < tables.names.size(); ++a)
+  for (std::size_t a = 0; a < count; ++a)
     for (std::size_t b = 0; b <= a; ++b)
       tables.pair.push_back(words.numbers(tables.spacing.distances,
                                           fmt::format("pair energies of {} and {}", tables.names[a], tables.names[b])));
+  words.end();
   return tables;
 }
 
@@ -132,7 +171,8 @@ FileTables read_funcfl(WordReader& words) {
   auto charges = words.numbers(tables.spacing.distances, "effective charges");
   for (double& z : charges) z = hartree_bohr * z * z;
   tables.pair.push_back(std::move(charges));
-  tables.density.push_back(words.numbers(tables.spacing.distances, "densities"));
+  tables.density.push_back({words.numbers(tables.spacing.distances, "densities")});
+  words.end();
   return tables;
 }
 
@@ -190,8 +230,10 @@ EmbeddedAtoms EmbeddedAtoms::from_file(std::string const& path, UnitSystem const
     auto const& values = tables.pair[a * (a + 1) / 2 + b];
     return Table(points([&](std::size_t k, double r) { return values[k] / r * energy; }), {}, fineness);
   };
-  auto const density = [&](std::size_t, std::size_t b, PerOctave fineness) {
-    return Table(points([&](std::size_t k, double) { return tables.density[b][k]; }), {}, fineness);
+  // That of b at a.
+  auto const density = [&](std::size_t a, std::size_t b, PerOctave fineness) {
+    auto const& values = tables.density[b][tables.density[b].size() > 1 ? a : 0];
+    return Table(points([&](std::size_t k, double) { return values[k]; }), {}, fineness);
   };
   try {
     return EmbeddedAtoms(std::move(elements), Tabulate(pair), Tabulate(density), finest_of_files, spline_error);

@@ -8,18 +8,16 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
+#include <istream>
 #include <string_view>
 
 namespace boltzmann {
 
 std::vector<NumberPair> read_pairs(std::string const& path, std::string const& first, std::string const& second) {
-  need_regular_file(path);
-  std::ifstream file(path);
-  if (!file) throw Error(fmt::format("{}: can't open the file", path));
+  auto const file = open_text(path, "file");
   std::vector<NumberPair> pairs;
   std::string line;
-  for (int number = 1; read_line(file, line, path); ++number) {
+  for (int number = 1; read_line(*file, line, path); ++number) {
     std::string_view text = line;
     text = text.substr(0, text.find('#'));
     std::vector<double> values;
@@ -43,7 +41,7 @@ std::vector<NumberPair> read_pairs(std::string const& path, std::string const& f
           fmt::format("{}:{}: {} numbers; a line has two, {} and {}", path, number, values.size(), first, second));
     pairs.push_back({{values[0], values[1]}, number});
   }
-  if (file.bad()) throw Error(fmt::format("{}: can't read the file", path));
+  if (file->bad()) throw Error(fmt::format("{}: can't read the file", path));
   return pairs;
 }
 

@@ -1,4 +1,6 @@
 // Reading LAMMPS data: a header of numbers, then sections in any order.
+#include <boltzmann/core/number.hpp>
+#include <boltzmann/loaders/lammps_styles.hpp>
 #include <boltzmann/loaders/particle_file.hpp>
 #include <boltzmann/loaders/text_lines.hpp>
 
@@ -9,26 +11,10 @@
 #include <cstdint>
 #include <map>
 #include <numeric>
+#include <set>
 
 namespace boltzmann {
 namespace {
-
-/// Which words of a line of Atoms are what; 0: not there. Positions follow.
-struct AtomStyle {
-  std::string_view name;
-  std::size_t type, charge, position;
-};
-constexpr std::array styles{
-    AtomStyle{"atomic", 1, 0, 2}, AtomStyle{"charge", 1, 2, 3},    AtomStyle{"bond", 2, 0, 3},
-    AtomStyle{"angle", 2, 0, 3},  AtomStyle{"molecular", 2, 0, 3}, AtomStyle{"full", 2, 3, 4},
-};
-
-struct Atom {
-  std::int64_t id;
-  std::string type;
-  double charge = 0;
-  std::array<double, 3> position, velocity{};
-};
 
 std::string_view without_comment(std::string_view line) { return line.substr(0, line.find('#')); }
 
@@ -39,17 +25,38 @@ std::string_view comment_of(std::string_view line) {
   return words.empty() ? std::string_view() : words.front();
 }
 
-bool is_section(std::vector<std::string_view> const& words) {
-  constexpr std::array alone{"Masses",    "Atoms",      "Velocities", "Bonds",  "Angles",   "Dihedrals",
-                             "Impropers", "Ellipsoids", "Lines",      "Bodies", "Triangles"};
-  if (words.size() == 1) return std::find(alone.begin(), alone.end(), words[0]) != alone.end();
-  return (words.size() == 2 && (words[1] == "Coeffs")) || (words.size() == 3 && words[2] == "Labels");
+/// What a section that is left aside holds, and how to get it.
+struct LeftSection {
+  std::string_view name, counted, how;  ///< `counted`: the word of the header that says how many lines it has
+};
+constexpr std::array left_sections{
+    LeftSection{"Bonds", "bonds", "`bonds` of the ensemble gives them"},
+    LeftSection{"Angles", "angles", "`angles` of [[influences]] gives them"},
+    LeftSection{"Dihedrals", "dihedrals", "`dihedrals` of [[influences]] gives them"},
+    LeftSection{"Impropers", "impropers", "`dihedrals` of [[influences]] may stand for them"},
+    LeftSection{"Ellipsoids", "ellipsoids", "particles are points or spheres"},
+    LeftSection{"Lines", "lines", "particles are points or spheres"},
+    LeftSection{"Triangles", "triangles", "particles are points or spheres"},
+    LeftSection{"Bodies", "", "particles are points or spheres"},
+};
+
+bool is_left_section(std::string_view name) {
+  return std::any_of(left_sections.begin(), left_sections.end(), [&](auto const& one) { return one.name == name; });
+}
+
+bool is_number(std::string_view word) {
+  double value = 0;
+  return parse_word(word, value);
 }
 
 class DataReader {
  public:
   DataReader(std::string const& path, std::string const& style) : lines_(path, "LAMMPS data file") {
-    if (!style.empty()) style_ = &named(style, [](std::string const& what) { return Error(what); });
+    if (!style.empty()) {
+      style_ = find_atom_style(style);
+      if (!style_) throw Error(fmt::format("atom style {}", unknown_style(style)));
+      said_ = true;
+    }
   }
 
   ParticleFrame read() {
@@ -59,115 +66,231 @@ class DataReader {
         frame_.units = words.front();
     read_header();
     while (next_line()) read_section();
-    if (!has_atoms_) throw lines_.ended("the file has no section Atoms");
+    if (!sections_.contains("Atoms")) throw lines_.ended("the file has no section Atoms");
+    check_counts();
     return finished();
   }
 
  private:
-  /// The next line that has words.
+  /// The next line that has words; blank_ tells whether a line without any stands before it.
   bool next_line() {
+    blank_ = false;
     while (lines_.next()) {
       words_ = words_of(without_comment(lines_.line()));
       if (!words_.empty()) return true;
+      blank_ = true;
     }
     return false;
+  }
+
+  /// A known heading, or words that are no numbers behind a blank line: sections of fixes have any name.
+  bool is_section() const {
+    constexpr std::array alone{"Masses", "Atoms", "Velocities"};
+    if (words_.size() == 1 && std::find(alone.begin(), alone.end(), words_[0]) != alone.end()) return true;
+    if (words_.size() == 1 && is_left_section(words_[0])) return true;
+    if (words_.size() == 2 && words_[1] == "Coeffs") return true;
+    if (words_.size() == 3 && words_[1] == "Type" && words_[2] == "Labels") return true;
+    return blank_ && std::none_of(words_.begin(), words_.end(), is_number);
   }
 
   /// The next line of a section; false where another one begins.
   bool in_section() {
     if (!next_line()) return false;
-    if (is_section(words_)) lines_.back();
-    return !is_section(words_);
-  }
-
-  template <class MakeError>
-  static AtomStyle const& named(std::string_view name, MakeError const& error) {
-    std::vector<std::string> names;
-    for (auto const& style : styles) {
-      if (style.name == name) return style;
-      names.emplace_back(style.name);
-    }
-    throw error(fmt::format("atom style '{}' can't be read; those that can are {}{}", boltzmann::quoted(name),
-                            join(names), did_you_mean(name, names)));
+    bool const other = is_section();
+    if (other) lines_.back();
+    return !other;
   }
 
   void read_header() {
-    std::array<bool, 3> edges{};
-    std::array<double, 3> tilt{};
-    while (in_section()) {
-      if (words_.size() == 2 && words_[1] == "atoms") {
-        atoms_ = lines_.count(words_[0], "a number of atoms");
-        counted_ = true;
-      } else if (words_.size() == 4 && words_[2].ends_with("lo") && words_[3].ends_with("hi")) {
-        int const axis = words_[2][0] - 'x';
-        if (axis < 0 || axis > 2)
-          throw lines_.error(fmt::format("'{}' is no edge of a box", boltzmann::quoted(lines_.line())));
-        auto const a = static_cast<std::size_t>(axis);
-        double const low = lines_.number(words_[0], "edge of the box"),
-                     high = lines_.number(words_[1], "edge of the box");
-        if (!(low < high))
-          throw lines_.error(fmt::format("the box goes from {} to {} along {}", low, high, "xyz"[axis]));
-        lengths_[a] = high - low;
-        edges[a] = true;
-      } else if (words_.size() == 6 && words_[3] == "xy") {
-        for (std::size_t k = 0; k < 3; ++k) tilt[k] = lines_.number(words_[k], "tilt of the box");
-      }
+    while (in_section()) read_header_line();
+    if (!counts_.contains("atoms")) throw lines_.error("the header has no line 'N atoms' before this one");
+    bool const edges = edges_[0] || edges_[1] || edges_[2], vectors = vectors_ > 0;
+    if (vectors && vectors_ != 3) throw lines_.error("the header has some of avec, bvec and cvec, and lacks others");
+    if (vectors && edges) throw lines_.error("the header has the box twice: by xlo xhi and by avec bvec cvec");
+    if (edges) frame_.lattice = {lengths_[0], 0, 0, tilt_[0], lengths_[1], 0, tilt_[1], tilt_[2], lengths_[2]};
+  }
+
+  void read_header_line() {
+    std::size_t const n = words_.size();
+    auto const is = [&](std::size_t k, std::string_view word) { return k < n && words_[k] == word; };
+    std::size_t numbers = 0;
+    while (numbers < n && is_number(words_[numbers])) ++numbers;
+    std::string name;
+    for (std::size_t k = numbers; k < n; ++k) name += (k > numbers ? " " : "") + std::string(words_[k]);
+    if (numbers == 0 || name.empty())
+      throw lines_.error(
+          fmt::format("'{}' is neither a line of the header nor a section", boltzmann::quoted(lines_.line())));
+    if (!header_.insert(name).second)
+      throw lines_.error(fmt::format("the header says '{}' twice", boltzmann::quoted(name)));
+    if (numbers == 2 && n == 4 && words_[2].size() == 3 && words_[2].ends_with("lo") && words_[3].ends_with("hi"))
+      return read_edges();
+    if (numbers == 3 && is(3, "xy")) {
+      for (std::size_t k = 0; k < 3; ++k) tilt_[k] = lines_.number(words_[k], "tilt of the box");
+    } else if (numbers == 3 && n == 4 && (is(3, "avec") || is(3, "bvec") || is(3, "cvec"))) {
+      if (!frame_.lattice) frame_.lattice.emplace();
+      for (std::size_t k = 0; k < 3; ++k)
+        (*frame_.lattice)[static_cast<std::size_t>(3 * (words_[3][0] - 'a')) + k] =
+            lines_.number(words_[k], "edge of the box");
+      ++vectors_;
+    } else if (numbers == 1 && n == 2) {
+      counts_[name] = lines_.count(words_[0], "a number of " + name);
+    } else if (numbers == 1 && is(2, "types")) {
+      counts_[name] = lines_.count(words_[0], "a number of types");
+    } else if (name != "abc origin" && !name.starts_with("extra")) {
+      frame_.left_aside.push_back(fmt::format("'{}' of the header", boltzmann::quoted(lines_.line())));
     }
-    if (!counted_) throw lines_.error("the header has no line 'N atoms' before this one");
-    if (edges[0] && edges[1] && edges[2])
-      frame_.lattice = {lengths_[0], 0, 0, tilt[0], lengths_[1], 0, tilt[1], tilt[2], lengths_[2]};
+  }
+
+  void read_edges() {
+    int const axis = words_[2][0] - 'x';
+    if (axis < 0 || axis > 2 || words_[3][0] != words_[2][0])
+      throw lines_.error(fmt::format("'{}' is no edge of a box", boltzmann::quoted(lines_.line())));
+    auto const a = static_cast<std::size_t>(axis);
+    double const low = lines_.number(words_[0], "edge of the box"), high = lines_.number(words_[1], "edge of the box");
+    if (!(low < high)) throw lines_.error(fmt::format("the box goes from {} to {} along {}", low, high, "xyz"[axis]));
+    lengths_[a] = high - low;
+    edges_[a] = true;
   }
 
   void read_section() {
-    if (!is_section(words_)) return;  // of a section that is left aside
-    std::string const name(words_[0]);
-    bool const labels = words_.size() == 3 && name == "Atom";
-    if (words_.size() > 1 && !labels) return;
-    if (labels) return read_labels();
+    std::string name;
+    for (auto const word : words_) name += (name.empty() ? "" : " ") + std::string(word);
+    if (!sections_.insert(name).second)
+      throw lines_.error(fmt::format("there is a section {} already", boltzmann::quoted(name)));
     if (name == "Masses") return read_masses();
     if (name == "Atoms") return read_atoms();
     if (name == "Velocities") return read_velocities();
+    if (name == "Atom Type Labels") return read_labels();
+    leave_aside(name);
+  }
+
+  void leave_aside(std::string const& name) {
+    std::size_t rows = 0;
+    while (in_section()) {
+      bool const known = name.ends_with("Coeffs") || name.ends_with("Labels") || is_left_section(name);
+      if (++rows == 1 && !known && !blank_)
+        throw lines_.error(fmt::format("'{}' before this line is neither a line of the header nor a section",
+                                       boltzmann::quoted(name)));
+    }
+    for (auto const& [section, counted, how] : left_sections) {
+      if (section != name) continue;
+      if (!counted.empty() && rows != count(std::string(counted)))
+        throw lines_.ended(
+            fmt::format("the section {} has {} lines, the header says {}", name, rows, count(std::string(counted))));
+      return frame_.left_aside.push_back(fmt::format("section {} ({} lines; {})", name, rows, how));
+    }
+    if (name.ends_with("Labels")) return;
+    frame_.left_aside.push_back(
+        fmt::format("section {} ({})", name,
+                    name.ends_with("Coeffs") ? "[[influences]] give laws" : "it belongs to a command of LAMMPS"));
+  }
+  std::size_t count(std::string const& name) const {
+    auto const found = counts_.find(name);
+    return found == counts_.end() ? 0 : found->second;
+  }
+
+  /// What the header promises and no section holds.
+  void check_counts() const {
+    for (auto const& [section, counted, how] : left_sections)
+      if (!counted.empty() && count(std::string(counted)) > 0 && !sections_.contains(std::string(section)))
+        throw lines_.ended(fmt::format("the header says {} {}, and there is no section {}", count(std::string(counted)),
+                                       counted, section));
   }
 
   void read_labels() {
-    while (in_section())
-      if (words_.size() == 2) frame_.labels.emplace_back(words_[1], words_[0]);
+    while (in_section()) {
+      if (words_.size() != 2) throw lines_.error("a line of Atom Type Labels is a type and its label");
+      for (auto const& [label, type] : types_)
+        if (label == words_[1] || type == words_[0])
+          throw lines_.error(fmt::format("'{}' is labelled already", boltzmann::quoted(lines_.line())));
+      types_.emplace_back(words_[1], words_[0]);
+      frame_.labels.emplace_back(words_[1], words_[0]);
+    }
   }
 
   void read_masses() {
     while (in_section()) {
-      if (words_.size() < 2) throw lines_.error("a line of Masses is a type and its mass");
-      masses_[std::string(words_[0])] = lines_.number(words_[1], "mass");
-      if (auto const label = comment_of(lines_.line()); !label.empty()) frame_.labels.emplace_back(label, words_[0]);
+      if (words_.size() != 2) throw lines_.error("a line of Masses is a type and its mass");
+      double const mass = lines_.number(words_[1], "mass");
+      if (!(mass > 0)) throw lines_.error(fmt::format("the mass {} is not positive", mass));
+      if (!masses_.emplace(std::string(words_[0]), mass).second)
+        throw lines_.error(fmt::format("Masses has type '{}' already", boltzmann::quoted(words_[0])));
+      if (auto const label = comment_of(lines_.line()); !label.empty() && !is_number(label))
+        frame_.labels.emplace_back(label, words_[0]);
     }
   }
 
-  /// By the number of words; Error if two styles have as many.
-  AtomStyle const& guessed() const {
-    std::size_t const n = words_.size();
-    if (n == 5 || n == 8) return named("atomic", [&](std::string const& what) { return lines_.error(what); });
-    if (n == 7 || n == 10) return named("full", [&](std::string const& what) { return lines_.error(what); });
-    throw lines_.error(
-        fmt::format("of {} words an atom may be of style charge or molecular: write 'Atoms # charge' in the file, or "
-                    "say the style",
-                    n));
+  /// What the comment behind Atoms and the scenario say; they must not differ.
+  void settle_style() {
+    auto const told = comment_of(lines_.line());
+    if (told.empty()) return;
+    AtomStyle const* const found = find_atom_style(told);
+    if (found && said_ && found != style_)
+      throw lines_.error(fmt::format("the file says style {}, the scenario {}; leave `style` out, or mend the file",
+                                     found->name, style_->name));
+    if (!found && !said_) throw lines_.error(fmt::format("atom style {}", unknown_style(told)));
+    if (found) style_ = found;
+  }
+
+  /// Five words are atoms of style atomic; more may be of several styles.
+  void guess_style() {
+    if (words_.size() == 5)
+      style_ = find_atom_style("atomic");
+    else
+      throw lines_.error(fmt::format(
+          "of {} words an atom may be of style {}: write 'Atoms # {}' in the file, or style = \"{}\" in load",
+          words_.size(), join(atom_styles_of(words_.size()), " or "), atom_styles_of(words_.size()).front(),
+          atom_styles_of(words_.size()).front()));
   }
 
   void read_atoms() {
-    has_atoms_ = true;
-    if (auto const told = comment_of(lines_.line()); !style_ && !told.empty())
-      style_ = &named(told, [&](std::string const& what) { return lines_.error(what); });
-    for (std::size_t i = 0; i < atoms_; ++i) {
-      if (!next_line() || is_section(words_))
-        throw lines_.ended(fmt::format("the section Atoms ends after {} of its {} atoms", i, atoms_));
-      if (!style_) style_ = &guessed();
-      std::vector<double> numbers;
-      lines_.numbers(words_, style_->position, 3, "position", numbers);
-      Atom atom{identifier(), std::string(words_[style_->type]), 0, {numbers[0], numbers[1], numbers[2]}};
-      if (style_->charge > 0) atom.charge = lines_.number(words_[style_->charge], "charge");
-      if (!index_.emplace(atom.id, all_.size()).second)
-        throw lines_.error(fmt::format("there is an atom {} already", atom.id));
-      all_.push_back(std::move(atom));
+    settle_style();
+    std::size_t const atoms = counts_.at("atoms");
+    while (in_section()) {
+      if (rows_ == atoms)
+        throw lines_.error(fmt::format("the section Atoms has more lines than the {} atoms of the header", atoms));
+      if (!style_) guess_style();
+      if (rows_ == 0) begin_atoms();
+      ++rows_;
+      if (words_.size() != width_)
+        throw lines_.error(fmt::format("an atom of style {} has {} words, or {} with image flags; this line has {}{}",
+                                       style_->name, columns_.size(), columns_.size() + 3, words_.size(),
+                                       images_ ? ", those before it have flags" : ""));
+      std::int64_t const id = identifier();
+      if (!index_.emplace(id, order_.size()).second) throw lines_.error(fmt::format("there is an atom {} already", id));
+      order_.emplace_back(id, order_.size());
+      read_atom();
+    }
+    if (rows_ < atoms) throw lines_.ended(fmt::format("the section Atoms ends after {} of its {} atoms", rows_, atoms));
+  }
+
+  /// The first atom says whether there are image flags.
+  void begin_atoms() {
+    columns_ = words_of(style_->columns);
+    images_ = words_.size() == columns_.size() + 3;
+    width_ = columns_.size() + (images_ ? 3 : 0);
+    frame_.columns = {{"position", 3, {}}, {"id", 1, {}, "", true}, {"type", 1, {}, "", true}};
+    for (auto const name : columns_)
+      if (!is_place(name)) frame_.columns.push_back({name == "q" ? "charge" : std::string(name), 1, {}});
+    for (char const* flag : {"ix", "iy", "iz"})
+      if (images_) frame_.columns.push_back({flag, 1, {}});
+  }
+  static bool is_place(std::string_view name) {
+    return name == "id" || name == "type" || name == "x" || name == "y" || name == "z";
+  }
+
+  void read_atom() {
+    std::size_t column = 3;
+    for (std::size_t k = 0; k < width_; ++k) {
+      std::string_view const name = k < columns_.size() ? columns_[k] : std::string_view("image flag");
+      if (name == "id")
+        frame_.columns[1].values.push_back(static_cast<double>(order_.back().first));
+      else if (name == "type")
+        frame_.species.emplace_back(words_[k]);
+      else if (is_place(name))
+        frame_.columns[0].values.push_back(lines_.number(words_[k], "position"));
+      else
+        frame_.columns[column++].values.push_back(lines_.number(words_[k], name == "q" ? "charge" : name));
     }
   }
 
@@ -179,49 +302,118 @@ class DataReader {
   }
 
   void read_velocities() {
-    if (!has_atoms_) throw lines_.error("Velocities stand before Atoms");
-    has_velocities_ = true;
-    for (std::size_t i = 0; i < atoms_; ++i) {
-      if (!next_line() || is_section(words_))
-        throw lines_.ended(fmt::format("the section Velocities ends after {} of its {} atoms", i, atoms_));
-      std::vector<double> numbers;
-      lines_.numbers(words_, 1, 3, "velocity", numbers);
+    if (!sections_.contains("Atoms")) throw lines_.error("Velocities stand before Atoms");
+    bool const spins = style_ && style_->spins;
+    velocity_.assign(3 * order_.size(), 0);
+    spin_.assign(spins ? 3 * order_.size() : 0, 0);
+    std::size_t rows = 0;
+    std::vector<bool> known(order_.size(), false);
+    while (in_section()) {
+      if (words_.size() != (spins ? 7U : 4U))
+        throw lines_.error(fmt::format("a line of Velocities has {} words, this one {}", spins ? 7 : 4, words_.size()));
       auto const found = index_.find(identifier());
       if (found == index_.end()) throw lines_.error(fmt::format("there is no atom {}", identifier()));
-      std::copy(numbers.begin(), numbers.end(), all_[found->second].velocity.begin());
+      if (known[found->second]) throw lines_.error(fmt::format("atom {} has a velocity already", identifier()));
+      known[found->second] = true;
+      ++rows;
+      for (std::size_t k = 1; k < words_.size(); ++k)
+        (k < 4 ? velocity_ : spin_)[3 * found->second + (k - 1) % 3] = lines_.number(words_[k], "velocity");
+    }
+    if (rows < order_.size())
+      throw lines_.ended(fmt::format("the section Velocities ends after {} of its {} atoms", rows, order_.size()));
+  }
+
+  /// The number of a type, whatever word names it.
+  std::string number_of(std::string const& word) const {
+    for (auto const& [label, type] : types_)
+      if (label == word) return type;
+    std::size_t number = 0;
+    auto const types = counts_.find("atom types");
+    if (!parse_word(std::string_view(word), number)) {
+      if (types_.empty() && masses_.contains(word)) return word;  // labels without a section that numbers them
+      throw lines_.ended(fmt::format("there is no type '{}'; Atom Type Labels has none of that label",
+                                     boltzmann::quoted(std::string_view(word))));
+    }
+    if (types != counts_.end() && (number < 1 || number > types->second))
+      throw lines_.ended(fmt::format("there is no type {}; the header says {} atom types", number, types->second));
+    return word;
+  }
+
+  void settle_types() {
+    std::map<std::string, double> by_number;
+    for (auto const& [word, mass] : masses_)
+      if (!by_number.emplace(number_of(word), mass).second)
+        throw lines_.ended(fmt::format("Masses has type {} twice, by number and by label", number_of(word)));
+    masses_ = std::move(by_number);
+    if (auto const types = counts_.find("atom types");
+        types != counts_.end() && !masses_.empty() && masses_.size() != types->second)
+      throw lines_.ended(
+          fmt::format("Masses has {} types, the header says {} atom types", masses_.size(), types->second));
+    for (auto& [label, type] : frame_.labels) type = number_of(type);
+    for (auto& species : frame_.species) species = number_of(species);
+    auto& type = frame_.columns[2].values;
+    for (auto const& species : frame_.species) {
+      double number = 0;
+      if (!parse_word(std::string_view(species), number))
+        return frame_.columns.erase(frame_.columns.begin() + 2), void();
+      type.push_back(number);
     }
   }
 
-  ParticleFrame finished() {
-    std::sort(all_.begin(), all_.end(), [](Atom const& a, Atom const& b) { return a.id < b.id; });
-    FileColumn position{"position", 3, {}}, velocity{"velocity", 3, {}}, mass{"mass", 1, {}}, charge{"charge", 1, {}};
-    for (auto const& atom : all_) {
-      frame_.species.push_back(atom.type);
-      position.values.insert(position.values.end(), atom.position.begin(), atom.position.end());
-      velocity.values.insert(velocity.values.end(), atom.velocity.begin(), atom.velocity.end());
-      charge.values.push_back(atom.charge);
-      if (masses_.empty()) continue;
-      auto const found = masses_.find(atom.type);
+  /// Of types, or of spheres by their densities.
+  void add_masses() {
+    FileColumn mass{"mass", 1, {}};
+    FileColumn const *density = frame_.find("density"), *diameter = frame_.find("diameter");
+    for (std::size_t i = 0; i < frame_.size(); ++i) {
+      if (density && diameter) {
+        double const d = diameter->values[i];
+        mass.values.push_back(density->values[i] * (d > 0 ? pi / 6 * d * d * d : 1));
+        continue;
+      }
+      auto const found = masses_.find(frame_.species[i]);
       if (found == masses_.end())
-        throw lines_.ended(fmt::format("Masses has none of type '{}'", boltzmann::quoted(atom.type)));
+        throw lines_.ended(
+            fmt::format("Masses has none of type '{}'", boltzmann::quoted(std::string_view(frame_.species[i]))));
       mass.values.push_back(found->second);
     }
-    frame_.columns.push_back(std::move(position));
-    if (has_velocities_) frame_.columns.push_back(std::move(velocity));
-    if (!masses_.empty()) frame_.columns.push_back(std::move(mass));
-    if (style_ && style_->charge > 0) frame_.columns.push_back(std::move(charge));
+    frame_.columns.push_back(std::move(mass));
+  }
+
+  ParticleFrame finished() {
+    if (order_.empty())
+      frame_.columns = {{"position", 3, {}}};
+    else
+      settle_types();
+    if (sections_.contains("Velocities")) {
+      frame_.columns.push_back({"velocity", 3, std::move(velocity_)});
+      if (!spin_.empty()) frame_.columns.push_back({"angular_velocity", 3, std::move(spin_)});
+    }
+    bool const spheres = frame_.find("density") && frame_.find("diameter");
+    if (spheres && !masses_.empty()) throw lines_.ended("atoms with a diameter and a density have no Masses");
+    if (!masses_.empty() || spheres) add_masses();
+    for (auto& column : frame_.columns)
+      if (spheres && column.name == "density") column.used = true;
+    sort_by_identifier(frame_, order_);
+    frame_.elements = !frame_.labels.empty();
     return std::move(frame_);
   }
 
   TextLines lines_;
-  std::vector<std::string_view> words_;
+  std::vector<std::string_view> words_, columns_;
   ParticleFrame frame_;
   AtomStyle const* style_ = nullptr;
-  std::size_t atoms_ = 0;
-  bool counted_ = false, has_atoms_ = false, has_velocities_ = false;
-  std::array<double, 3> lengths_{};
+  bool said_ = false;   ///< the scenario says the style
+  bool blank_ = false;  ///< a line without words stands before this one
+  bool images_ = false;
+  std::size_t width_ = 0, rows_ = 0, vectors_ = 0;
+  std::map<std::string, std::size_t> counts_;  ///< of the header: "atoms", "bonds", "atom types"
+  std::set<std::string> header_, sections_;
+  std::array<bool, 3> edges_{};
+  std::array<double, 3> lengths_{1, 1, 1}, tilt_{};  // LAMMPS' box goes from -0.5 to 0.5 where nothing else is said
+  std::vector<std::pair<std::string, std::string>> types_;
   std::map<std::string, double> masses_;
-  std::vector<Atom> all_;
+  std::vector<std::pair<std::int64_t, std::size_t>> order_;
+  std::vector<double> velocity_, spin_;
   std::map<std::int64_t, std::size_t> index_;
 };
 

@@ -14,9 +14,9 @@ namespace boltzmann {
 /// What a reader is told besides the path.
 struct ParticleFileOptions {
   std::size_t frame = 0;    ///< from 0
-  std::string format = {};  ///< a name of the table; empty: what the path's ending says
+  std::string format = {};  ///< a name of the table; empty: by the path's ending, else by the content
   std::string units =
-      {};  ///< a unit style ("metal"): in place of what the file says; Error in formats that have their own
+      {};  ///< a unit style ("metal", "ase"): in place of what the file says; Error in formats that have their own
   std::string style = {};  ///< of LAMMPS data: "atomic", "charge", "bond", "full", ...; empty: what the file says
 };
 
@@ -29,31 +29,35 @@ struct ParticleFileFormat {
 };
 std::span<ParticleFileFormat const> particle_file_formats();
 std::vector<std::string> particle_file_names();
+/// The unit styles, and ASE's own units.
+std::vector<std::string> particle_file_units();
+/// The atom styles of LAMMPS data.
+std::vector<std::string> particle_file_styles();
 
-/// Reads one frame of a file. Error `file:line: what is wrong`; of an ending that is none of the table the file is taken
-/// for XYZ.
+/// Reads one frame of a file, which gzip may have compressed. Error `file:line: what is wrong`. If the file's name is none
+/// of the table ("data.melt"), its first lines show what it is.
 ParticleFrame from_particle_file(std::string const& path, ParticleFileOptions const& options = {});
 
 // The readers of the table, one a format.
 
 /// XYZ, plain and extended: a line with the number of particles, a comment line, a line for each particle. If the
-/// comment has `Properties=species:S:1:pos:R:3:velo:R:3`, it says what the columns are (pos, velo, vel, velocities,
-/// masses, charges are known by their standard words here, other numbers keep their names); without it, a line is a
-/// species and x y z, and what follows is left aside. `pbc="T T F"`, `Lattice` and the units (Length_unit, velo_unit) are
-/// read, too.
+/// comment has `Properties=species:S:1:pos:R:3:velo:R:3`, it names the columns (pos, velo, vel, velocities, masses,
+/// charges, momenta are known by their standard words here, other columns keep their names); else a line is a species and
+/// x y z, and further words are left aside. `pbc="T T F"`, `Lattice` and the units (Length_unit, velo_unit) are read, too.
 ParticleFrame from_xyz(std::string const& path, ParticleFileOptions const& options);
 /// The same of a frame (the first is 0).
 ParticleFrame from_xyz_file(std::string const& path, std::size_t frame = 0);
-/// LAMMPS' `read_data`: Masses, Atoms of the styles atomic, charge, bond, angle, molecular and full, Velocities; other
-/// sections are left aside. Particles come in the order of their identifiers; species are types, by number or by what
-/// stands behind # in Masses.
+/// LAMMPS' `read_data`: Masses, Atom Type Labels, Atoms of the styles of lammps_styles.cpp, Velocities; other sections are
+/// left aside. Particles come in the order of their identifiers; species are types, by number, by label or by what stands
+/// behind # in Masses. Error if the header and a section differ, or the style is not clear.
 ParticleFrame from_lammps_data(std::string const& path, ParticleFileOptions const& options);
 /// LAMMPS' text dumps: x y z, scaled (xs) or unwrapped (xu), vx vy vz, mass, q, type, element, and other columns by their
 /// names. Particles come in the order of their identifiers, if there are any.
 ParticleFrame from_lammps_dump(std::string const& path, ParticleFileOptions const& options);
 /// Protein Data Bank: ATOM and HETATM of a MODEL, CRYST1. Species are elements, where they are left out names of atoms.
+/// Columns: position, residue, occupancy, temperature_factor, charge (formal). Alternate places of atoms are an Error.
 ParticleFrame from_pdb(std::string const& path, ParticleFileOptions const& options);
-/// GROMACS: positions and velocities, box. Species are names of atoms.
+/// GROMACS: positions, velocities, residue numbers, box. Species are names of atoms. Error if only some have a velocity.
 ParticleFrame from_gro(std::string const& path, ParticleFileOptions const& options);
 /// VASP's POSCAR and CONTCAR: lattice, positions (Direct or Cartesian), velocities.
 ParticleFrame from_poscar(std::string const& path, ParticleFileOptions const& options);

@@ -1,4 +1,5 @@
 // Columns of a file into fields of ensembles, with the refusals of what does not fit.
+#include <boltzmann/core/elements.hpp>
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/quantity_text.hpp>
 #include <boltzmann/loaders/particle_frame.hpp>
@@ -7,6 +8,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <set>
 
 namespace boltzmann {
 namespace {
@@ -25,15 +28,28 @@ double factor_of(std::string const& column, std::string const& unit, Dimension d
   return options.units.from_si(quantity.si, dimension);
 }
 
-/// The particles of a species, by its own word or by a label of it.
-std::vector<std::size_t> of_species(ParticleFrame const& frame, std::string const& species) {
-  std::string word = species;
+/// The words that mean a species: its own, and the types of which it is the label.
+std::set<std::string> meanings(ParticleFrame const& frame, std::string const& species) {
+  std::set<std::string> words{species};
   for (auto const& [label, type] : frame.labels)
-    if (label == species) word = type;
+    if (label == species) words.insert(type);
+  return words;
+}
+
+std::vector<std::size_t> of_species(ParticleFrame const& frame, std::string const& species) {
+  auto const words = meanings(frame, species);
   std::vector<std::size_t> chosen;
   for (std::size_t i = 0; i < frame.size(); ++i)
-    if (species.empty() || frame.species[i] == species || frame.species[i] == word) chosen.push_back(i);
+    if (species.empty() || words.contains(frame.species[i])) chosen.push_back(i);
   return chosen;
+}
+
+/// The field that gets a column; null if none fits.
+Field const* field_for(AnyEnsemble const& ensemble, FileColumn const& column) {
+  Field const* field = ensemble.find_field(column.name);
+  if (field == nullptr) return nullptr;
+  bool const spatial = column.components == 3 && field->components == ensemble.dimension();
+  return column.components == field->components || spatial ? field : nullptr;
 }
 
 void fill(AnyEnsemble& ensemble, Field const& field, FileColumn const& column, std::vector<std::size_t> const& chosen,
@@ -59,6 +75,44 @@ FileColumn const* ParticleFrame::find(std::string_view name) const {
   return nullptr;
 }
 
+std::vector<std::string> left_aside(AnyEnsemble const& ensemble, ParticleFrame const& frame,
+                                    std::vector<std::string> const& given) {
+  std::vector<std::string> unread, replaced, all;
+  for (auto const& column : frame.columns) {
+    bool const empty = std::all_of(column.values.begin(), column.values.end(), [](double value) { return value == 0; });
+    if (column.used || empty) continue;
+    Field const* field = ensemble.find_field(column.name);
+    if (field_for(ensemble, column) == nullptr)
+      unread.push_back(
+          field ? fmt::format("{} ({} numbers, the field has {})", column.name, column.components, field->components)
+                : column.name);
+    else if (std::find(given.begin(), given.end(), column.name) != given.end())
+      replaced.push_back(column.name);
+  }
+  if (!replaced.empty()) all.push_back(join(replaced) + " (the scenario gives other values)");
+  if (!unread.empty()) all.push_back(fmt::format("{} (a class with fields of these names gets them)", join(unread)));
+  all.insert(all.end(), frame.left_aside.begin(), frame.left_aside.end());
+  return all;
+}
+
+std::vector<double> element_masses(ParticleFrame const& frame, std::string const& species, UnitSystem const& units) {
+  std::vector<double> masses;
+  if (!frame.elements) return masses;
+  std::map<std::string_view, std::optional<double>> known;
+  for (auto const i : of_species(frame, species)) {
+    auto const [entry, is_new] = known.try_emplace(frame.species[i]);
+    if (is_new) {
+      bool const number = frame.species[i].find_first_not_of("0123456789") == std::string::npos;
+      if (!number || frame.labels.empty()) entry->second = element_mass(frame.species[i], units);
+      for (auto const& [label, type] : frame.labels)  // a type's number is not that of an element
+        if (type == frame.species[i] && !entry->second) entry->second = element_mass(label, units);
+    }
+    if (!entry->second) return {};
+    masses.push_back(*entry->second);
+  }
+  return masses;
+}
+
 std::string lattice_misfit(ParticleFrame const& frame, Box const& box, FrameOptions const& options) {
   if (!frame.lattice) return "";
   auto const* position = frame.find("position");
@@ -76,6 +130,12 @@ std::string lattice_misfit(ParticleFrame const& frame, Box const& box, FrameOpti
                          units.text(edge, dimensions::length, 8), "xyz"[a], units.text(wanted, dimensions::length, 8));
   }
   return "";
+}
+
+std::vector<std::string> words_of_species(ParticleFrame const& frame, std::string const& species) {
+  auto words = meanings(frame, species);
+  if (species.empty()) words = {frame.species.begin(), frame.species.end()};
+  return {words.begin(), words.end()};
 }
 
 std::size_t count_species(ParticleFrame const& frame, std::string const& species) {
@@ -99,10 +159,8 @@ std::size_t frame_load(AnyEnsemble& ensemble, ParticleFrame const& frame, FrameO
     ensemble.resize(chosen.size());
   }
   for (auto const& column : frame.columns) {
-    Field const* field = ensemble.find_field(column.name);
+    Field const* const field = field_for(ensemble, column);
     if (field == nullptr) continue;
-    bool const spatial = column.components == 3 && field->components == ensemble.dimension();
-    if (column.components != field->components && !spatial) continue;
     fill(ensemble, *field, column, chosen, factor_of(column.name, column.unit, field->dimension, options));
   }
   return chosen.size();

@@ -59,8 +59,9 @@ std::vector<AtomKind> read_kinds(TextLines& lines) {
   }
   std::vector<AtomKind> kinds;
   for (auto const word : words) {
-    if (!names.empty() && kinds.size() == names.size()) break;
-    if (names.empty() && !parse_word(word, number)) break;  // a comment
+    if (word[0] == '!' || word[0] == '#' || (names.empty() && !parse_word(word, number))) break;  // a comment
+    if (!names.empty() && kinds.size() == names.size())
+      throw lines.error(fmt::format("there are {} elements and more numbers of atoms", names.size()));
     std::string const name = names.empty() ? fmt::format("{}", kinds.size() + 1) : names[kinds.size()];
     kinds.push_back({name, lines.count(word, "a number of atoms")});
   }
@@ -69,6 +70,99 @@ std::vector<AtomKind> read_kinds(TextLines& lines) {
   return kinds;
 }
 
+/// Reads what follows the kinds of atoms.
+class PoscarReader {
+ public:
+  PoscarReader(TextLines& lines, ParticleFrame& frame) : lines_(lines), frame_(frame) {}
+
+  void read_positions(std::vector<AtomKind> const& kinds, Edges const& edges, std::array<double, 3> const& scale) {
+    lines_.need("the positions");
+    bool const selective = letter() == 's';  // Selective dynamics: what may move
+    if (selective) lines_.need("the positions");
+    bool const direct = letter() == 'd';
+    if (!direct && letter() != 'c' && letter() != 'k')
+      throw lines_.error(fmt::format("'{}' is neither Direct nor Cartesian", boltzmann::quoted(lines_.line())));
+    for (auto const& kind : kinds)
+      for (std::size_t i = 0; i < kind.count; ++i) {
+        if (!lines_.next())
+          throw lines_.ended(fmt::format("the file ends after {} of the {} atoms of '{}'", i, kind.count,
+                                         boltzmann::quoted(kind.name)));
+        auto const words = lines_.words();
+        std::vector<double> x;
+        lines_.numbers(words, 0, 3, "position", x);
+        for (std::size_t a = 0; a < 3; ++a)
+          frame_.columns[0].values.push_back(direct ? x[0] * edges[a] + x[1] * edges[3 + a] + x[2] * edges[6 + a]
+                                                    : scale[a] * x[a]);
+        // "Fe_pv" and "Si/1a2b" are of Fe and Si.
+        frame_.species.push_back(kind.name.substr(0, kind.name.find_first_of("_/")));
+        if (selective && may_not_move(words)) ++held_;
+      }
+    for (auto const& kind : kinds)
+      if (auto const end = kind.name.find_first_of("_/"); end != std::string::npos)
+        frame_.labels.emplace_back(kind.name, kind.name.substr(0, end));
+    if (held_ > 0)
+      frame_.left_aside.push_back(fmt::format(
+          "selective dynamics, by which {} atoms are held (freeze = true in [[ensembles.set]] holds them)", held_));
+  }
+
+  /// Velocities, behind a blank line or a word, and what else may follow.
+  void read_velocities() {
+    if (!lines_.next()) return;
+    if (letter() == 'l') {  // Lattice velocities and vectors: a number, three of the first, three of the second
+      for (int k = 0; k < 7; ++k) lines_.need("the velocities of the lattice");
+      frame_.left_aside.push_back("velocities of the lattice (a [[barostat]] has its own)");
+      if (!lines_.next()) return;
+    }
+    bool const direct = letter() == 'd';
+    if (letter() != ' ' && letter() != 'c' && letter() != 'k' && !direct)
+      throw lines_.error(fmt::format("'{}' follows the {} atoms; velocities stand behind a blank line",
+                                     boltzmann::quoted(lines_.line()), frame_.size()));
+    do {
+      if (!lines_.next()) return;
+    } while (letter() == ' ');
+    lines_.back();
+    FileColumn velocity{"velocity", 3, {}, "angstrom/fs"};
+    for (std::size_t i = 0; i < frame_.size(); ++i) {
+      if (!lines_.next())
+        throw lines_.ended(fmt::format("the file ends after {} of the {} velocities", i, frame_.size()));
+      lines_.numbers(lines_.words(), 0, 3, "velocity", velocity.values);
+    }
+    if (direct)
+      frame_.left_aside.push_back("velocities in parts of the lattice and the time step (write them as Cartesian)");
+    else
+      frame_.columns.push_back(std::move(velocity));
+    if (!lines_.next()) return;
+    if (letter() != ' ')
+      throw lines_.error(
+          fmt::format("'{}' follows the {} velocities", boltzmann::quoted(lines_.line()), frame_.size()));
+    while (lines_.next())
+      if (letter() != ' ')
+        return frame_.left_aside.push_back("what VASP's predictor needs to go on (a run here begins anew)");
+  }
+
+ private:
+  char letter() const {
+    auto const words = lines_.words();
+    return words.empty() ? ' ' : static_cast<char>(words[0][0] | 0x20);
+  }
+  /// Whether one of the words behind x y z is F.
+  bool may_not_move(std::vector<std::string_view> const& words) const {
+    bool held = false;
+    for (std::size_t k = 3; k < 6; ++k) {
+      std::size_t const at = k < words.size() && words[k].size() > 1 && words[k][0] == '.' ? 1 : 0;
+      char const flag = k < words.size() ? static_cast<char>(words[k][at] | 0x20) : ' ';
+      if (flag != 't' && flag != 'f')
+        throw lines_.error("with selective dynamics, T or F for each of three axes stands behind a position");
+      held = held || flag == 'f';
+    }
+    return held;
+  }
+
+  TextLines& lines_;
+  ParticleFrame& frame_;
+  std::size_t held_ = 0;
+};
+
 }  // namespace
 
 ParticleFrame from_poscar(std::string const& path, ParticleFileOptions const& options) {
@@ -76,44 +170,18 @@ ParticleFrame from_poscar(std::string const& path, ParticleFileOptions const& op
     throw Error(fmt::format("{}: a POSCAR is one frame, there is no frame {}", path, options.frame));
   TextLines lines(path, "POSCAR file");
   ParticleFrame frame;
-  std::string const comment = lines.need("its first line");
+  frame.comment = lines.need("its first line");
   std::array<double, 3> scale{};
   Edges const edges = read_edges(lines, scale);
   auto const kinds = read_kinds(lines);
-  frame.comment = comment;
   frame.lattice = edges;
+  frame.elements = std::all_of(kinds.begin(), kinds.end(), [](AtomKind const& kind) {
+    return kind.name.find_first_not_of("0123456789") != std::string::npos;
+  });
   frame.columns = {{"position", 3, {}, "angstrom"}};
-  auto const letter = [&] {
-    auto const words = lines.words();
-    return words.empty() ? ' ' : static_cast<char>(words[0][0] | 0x20);
-  };
-  lines.need("the positions");
-  if (letter() == 's') lines.need("the positions");  // Selective dynamics: what may move
-  bool const direct = letter() == 'd';
-  if (!direct && letter() != 'c' && letter() != 'k')
-    throw lines.error(fmt::format("'{}' is neither Direct nor Cartesian", boltzmann::quoted(lines.line())));
-  auto& positions = frame.columns[0].values;
-  for (auto const& kind : kinds)
-    for (std::size_t i = 0; i < kind.count; ++i) {
-      if (!lines.next())
-        throw lines.ended(
-            fmt::format("the file ends after {} of the {} atoms of '{}'", i, kind.count, boltzmann::quoted(kind.name)));
-      std::vector<double> x;
-      lines.numbers(lines.words(), 0, 3, "position", x);
-      for (std::size_t a = 0; a < 3; ++a)
-        positions.push_back(direct ? x[0] * edges[a] + x[1] * edges[3 + a] + x[2] * edges[6 + a] : scale[a] * x[a]);
-      frame.species.push_back(kind.name);
-    }
-  // Velocities, behind a blank line or a word; what else may stand there (a predictor's numbers) is left aside.
-  if (!lines.next() || (letter() != ' ' && letter() != 'c' && letter() != 'k') || !lines.next() || letter() == ' ')
-    return frame;
-  FileColumn velocity{"velocity", 3, {}, "angstrom/fs"};
-  lines.back();
-  for (std::size_t i = 0; i < frame.size(); ++i) {
-    if (!lines.next()) throw lines.ended(fmt::format("the file ends after {} of the {} velocities", i, frame.size()));
-    lines.numbers(lines.words(), 0, 3, "velocity", velocity.values);
-  }
-  frame.columns.push_back(std::move(velocity));
+  PoscarReader reader(lines, frame);
+  reader.read_positions(kinds, edges, scale);
+  reader.read_velocities();
   return frame;
 }
 

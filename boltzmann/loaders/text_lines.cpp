@@ -19,18 +19,15 @@ std::vector<std::string_view> words_of(std::string_view line) {
   }
 }
 
-TextLines::TextLines(std::string const& path, std::string_view what) : path_(path) {
-  need_regular_file(path);
-  file_.open(path);
-  if (!file_) throw Error(fmt::format("{}: can't open the {}", path, what));
-}
+TextLines::TextLines(std::string const& path, std::string_view what)
+    : path_(path), file_(open_text(path, std::string(what))) {}
 
 bool TextLines::next() {
   if (again_) {
     again_ = false;
     return true;
   }
-  if (!read_line(file_, line_, path_)) return false;
+  if (!read_line(*file_, line_, path_)) return false;
   if (line_.ends_with('\r')) line_.pop_back();
   ++number_;
   return true;
@@ -64,6 +61,10 @@ std::size_t TextLines::count(std::string_view word, std::string_view what) const
   std::size_t value = 0;
   if (!parse_word(word, value)) throw error(fmt::format("'{}' is not {}", boltzmann::quoted(word), what));
   return value;
+}
+
+void Identifiers::add(TextLines const& lines, std::int64_t id) {
+  if (!known_.insert(id).second) throw lines.error(fmt::format("there is an atom {} already", id));
 }
 
 std::string no_frame(std::size_t frames, std::size_t wanted) {

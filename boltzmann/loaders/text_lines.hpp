@@ -7,10 +7,13 @@
 #include <charconv>
 #include <cmath>
 #include <cstddef>
-#include <fstream>
+#include <cstdint>
+#include <istream>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <unordered_set>
 #include <vector>
 
 namespace boltzmann {
@@ -55,10 +58,19 @@ class TextLines {
 
  private:
   std::string path_;
-  std::ifstream file_;
+  std::unique_ptr<std::istream> file_;
   std::string line_;
   std::size_t number_ = 0;
   bool again_ = false;
+};
+
+/// Error if a number is there twice, at the line that names it again: identifiers of particles.
+class Identifiers {
+ public:
+  void add(TextLines const& lines, std::int64_t id);
+
+ private:
+  std::unordered_set<std::int64_t> known_;
 };
 
 /// "the file has 3 frames, there is no frame 7 (the first is 0)"

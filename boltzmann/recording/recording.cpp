@@ -400,6 +400,9 @@ Recording& Recording::picture(Picture picture) {
   state_->pictures.push_back(std::move(picture));
   return *this;
 }
+void Recording::elements(std::vector<std::pair<std::string, std::string>> elements) {
+  state_->frames.elements = std::move(elements);
+}
 void Recording::title(std::string title) { state_->title = std::move(title); }
 void Recording::scenario(std::string text) { state_->scenario = std::move(text); }
 void Recording::planned(std::int64_t last_step) { state_->planned = last_step; }

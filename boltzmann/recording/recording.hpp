@@ -19,6 +19,7 @@
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace boltzmann {
@@ -68,6 +69,8 @@ class Recording {
   void diagnose(std::uint64_t every, std::unique_ptr<Diagnosis> diagnosis);
   /// A frame of trajectory.h5 every so many steps, and one of the last state.
   Recording& trajectory(std::uint64_t every);
+  /// The chemical elements of ensembles ("atoms", "Cu"), by which exports name their particles.
+  void elements(std::vector<std::pair<std::string, std::string>> elements);
   /// What a mesh has on its nodes (density, potential, field) every so many steps: mesh/000000100.vti, ..., and
   /// mesh.pvd, which ParaView opens as a time series. Error when the run starts, if no scheme has a mesh.
   Recording& mesh(std::uint64_t every);

@@ -38,6 +38,7 @@ TrajectoryOptions RunFrames::options() const {
   TrajectoryOptions options;
   options.version = program_version;
   options.sizes_change = simulation_.numbers_change();
+  options.elements = elements;
   if (!units_.is_reduced()) {
     options.unit_name = [units = units_](Dimension d) { return trajectory_unit(units, d).unit; };
     options.factor = [units = units_](Dimension d) { return trajectory_unit(units, d).factor; };

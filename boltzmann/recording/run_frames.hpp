@@ -21,7 +21,8 @@ class RunFrames {
  public:
   RunFrames(Simulation const& simulation, UnitSystem const& units) : simulation_(simulation), units_(units) {}
 
-  std::int64_t every = 0;  ///< steps; 0: never
+  std::int64_t every = 0;                                          ///< steps; 0: never
+  std::vector<std::pair<std::string, std::string>> elements = {};  ///< of ensembles
 
   void begin(std::string const& path);
   /// Error if the file does not begin with the frames that the saved run had written.

@@ -1,7 +1,6 @@
 // The members of loaders with their keys, and which of them each kind has.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/once.hpp>
-#include <boltzmann/core/unit_style.hpp>
 #include <boltzmann/loaders/particle_file.hpp>
 #include <boltzmann/scenario/load_options.hpp>
 
@@ -49,14 +48,14 @@ OptionTable make_members() {  // long: a table, a row for each key
   all.add("acceleration", &L::acceleration, number(dimensions::acceleration), "downwards, along the last axis");
   all.add_said("positions", "a list of places, `[[0, 0], [1, 0]]`", "one for each particle");
   all.add("path", &L::path, path(), "from the scenario's folder");
-  all.add("format", &L::format, word(particle_file_names()), "of the file", "what its ending says");
+  all.add("format", &L::format, word(particle_file_names()), "of the file", "by its ending, else by its content");
   all.add("frame", &L::frame, whole(0, unlimited), "of the file, from 0");
   all.add("ensemble", &L::ensemble, text(), "of the stored run", "the one of this name");
   all.add("species", &L::species, text(), "only these: an element, a name, the number of a type", "all");
-  all.add("units", &L::units, word(unit_style_names()), "the file's units, by LAMMPS' words",
+  all.add("units", &L::units, word(particle_file_units()),
+          "the file's units, by LAMMPS' words; `\"ase\"`: those of ASE, so that momenta become velocities",
           "what the file says, else the base's");
-  all.add("style", &L::style, word({"atomic", "charge", "bond", "angle", "molecular", "full"}), "of LAMMPS data",
-          "what the file says");
+  all.add("style", &L::style, word(particle_file_styles()), "the atom style of LAMMPS data", "what the file says");
   all.add("length", &L::length, number(dimensions::length, positive), "the file's unit of length",
           "what the file says, else the base's");
   all.add("velocity", &L::velocity, number(dimensions::velocity, positive), "and of velocities",
@@ -157,9 +156,9 @@ std::vector<LoadKind> make_kinds() {  // long: a table, an entry for each kind
        false, of({{"counts", "sites along each axis"}})},
       {"positions", "where you say", false, of({{"positions"}})},
       {"file",
-       "a file of another program: XYZ, LAMMPS data or dump, PDB, GRO, POSCAR; its lattice has to be the box along "
-       "axes "
-       "that are periodic in both",
+       "a file of another program, also compressed by gzip: XYZ, LAMMPS data or dump, PDB, GRO, POSCAR; its lattice "
+       "has "
+       "to be the box along axes that are periodic in both",
        false, of({{"path"}, {"format"}, {"frame"}, {"species"}, {"units"}, {"style"}, {"length"}, {"velocity"}})},
       {"frame", "a frame of the trajectory of another run, with all fields that both have", false,
        of({{"path", "of a trajectory.h5, from the scenario's folder", "", "\"results/melt/trajectory.h5\""},

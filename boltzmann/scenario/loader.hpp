@@ -36,6 +36,17 @@ class Loader {
   /// Error if the lower rooms refuse.
   void load(AnyEnsemble& particles);
 
+  /// Whether loading sets a field.
+  bool sets(std::string_view field) const;
+  bool reads_file() const { return kind_ && kind_->name == "file"; }
+  /// Of a file without masses: those of the elements, in the order of the particles. Empty if one is not known.
+  std::vector<double> element_masses() const;
+  std::string file_name() const;
+  /// What of a file these particles did not get, and what was assumed; `given`: fields that the scenario gives.
+  std::vector<std::string> notes(AnyEnsemble const& particles, std::vector<std::string> const& given) const;
+  /// Counts the particles of the file that this ensemble takes.
+  void count_species_taken() const;
+
  private:
   /// How many places a kind has itself (0: as many as there are particles), and how it fills them.
   struct Way {
@@ -76,6 +87,8 @@ class Loader {
   void load_places(AnyEnsemble& particles);
   double read_file();
   FrameOptions frame_options() const;
+  std::vector<std::string> notes_of_frame(AnyEnsemble const& particles) const;
+  std::string assumed_units(AnyEnsemble const& particles, std::vector<std::string> const& given) const;
   void load_file(AnyEnsemble& particles);
   double read_frame();
   void load_frame(AnyEnsemble& particles);

@@ -81,6 +81,11 @@ void read_step(Item const& item, ReadRun& run, Reading& reading) {
 
 }  // namespace
 
+void Reading::note(std::string line) {
+  auto& notes = result->notes;
+  if (std::find(notes.begin(), notes.end(), line) == notes.end()) notes.push_back(std::move(line));
+}
+
 std::vector<std::string> Reading::ensemble_names() const {
   std::vector<std::string> names;
   for (auto const& e : ensembles) names.push_back(e.name);

@@ -1,4 +1,5 @@
 // Reads [[ensembles]]: which particles there are, and in what state.
+#include <boltzmann/core/elements.hpp>
 #include <boltzmann/files/trajectory.hpp>
 #include <boltzmann/loaders/internal_energy_load.hpp>
 #include <boltzmann/loaders/random_load.hpp>
@@ -16,6 +17,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 
 namespace boltzmann {
 namespace {
@@ -56,6 +58,7 @@ class EnsembleReader {
     if (Item const* item = section_.item("number"); item && item->is(Item::Kind::integer) && item->integer == 0)
       mistake(item->place, "number: 0 adds nobody; 1 or more are needed");
     options_.name = name;
+    options_.element = of.element;
     ensemble_.name = of.name;
     kind_ = of.kind;
     variant_ = kind_->in(reading_.dimension);
@@ -77,6 +80,8 @@ class EnsembleReader {
   }
 
   void complete() {
+    if (particles_ && !addition_ && !options_.element.empty())
+      reading_.result->elements.emplace_back(ensemble_.name, options_.element);
     if (particles_ && ensemble_.state) find_temperatures(*particles_, *ensemble_.state);
     if (particles_) catch_errors(reading_, ensemble_.load_place, [&] { reading_.box->check(*particles_); });
   }
@@ -91,11 +96,12 @@ class EnsembleReader {
   }
 
   void read_keys() {
-    read_options(
-        section_,
-        ensemble_options().only({{"name"}, {"number"}, {"molecule"}, {"integrator"}, {"colour"}, {"diameter"}}),
-        &options_, {.dimension = reading_.dimension});
+    read_options(section_,
+                 ensemble_options().only(
+                     {{"name"}, {"number"}, {"molecule"}, {"integrator"}, {"colour"}, {"diameter"}, {"element"}}),
+                 &options_, {.dimension = reading_.dimension});
     ensemble_.name = options_.name;
+    read_element();
     ensemble_.molecules.length = options_.molecule;
     if (Item const* item = section_.item("name"); item && item->is(Item::Kind::text)) {
       if (item->text.empty())
@@ -110,6 +116,16 @@ class EnsembleReader {
     catch_errors(reading_, section_.place("colour"), [&] {
       if (!options_.appearance.colour.empty() || section_.has("colour")) colour_named(options_.appearance.colour);
     });
+  }
+
+  void read_element() {
+    Item const* item = section_.item("element");
+    if (!item || !item->is(Item::Kind::text)) return;
+    auto const symbols = element_symbols();
+    if (!find_element(options_.element) || std::isdigit(static_cast<unsigned char>(options_.element[0])) != 0)
+      mistake(item->place, fmt::format("element: '{}' is not the symbol of an element, as in element = \"Cu\"{}",
+                                       quoted(options_.element), did_you_mean(options_.element, symbols)));
+    ensemble_.element = options_.element;
   }
 
   void read_class() {
@@ -195,12 +211,66 @@ class EnsembleReader {
     particles_ = made_.get();
     auto const all = all_indices(*particles_);
     for (auto const& value : fields_) apply(value, *particles_, all);  // loaders look at masses
-    bool const loaded = catch_errors(reading_, ensemble_.load_place, [&] { loader_->load(*particles_); });
+    bool const loaded = catch_errors(reading_, ensemble_.load_place, [&] {
+      loader_->load(*particles_);
+      settle_masses();
+    });
     particles_->appearance = options_.appearance;  // after a lattice's own diameter: pictures of scenarios choose one
     for (auto const& value : fields_) apply(value, *particles_, all);
     if (smooth() && volume() && reading_.smooth.variable && !gives(section_, "range"))
       set_ranges(*particles_, *volume(), reading_.smooth.variable->spacings);
+    if (loaded)
+      for (auto& line : loader_->notes(*particles_, given_names())) reading_.note(std::move(line));
+    if (loaded && !addition_) loader_->count_species_taken();
     if (!loaded || !fill_fields(all) || !fill_velocities()) particles_ = nullptr;
+  }
+
+  /// Fields whose values the table gives.
+  std::vector<std::string> given_names() const {
+    std::vector<std::string> names;
+    for (auto const& value : fields_) names.push_back(value.field.name);
+    for (auto const& formula : formulas_) names.push_back(formula.field.name);
+    if (options_.temperature) names.emplace_back("velocity");
+    return names;
+  }
+
+  /// Masses that neither the table nor the loader gives are those of elements. Of pure numbers they are 1.
+  void settle_masses() {
+    Field const* mass = particles_->find_field("mass");
+    UnitSystem const& units = reading_.context.units;
+    if (!mass || smooth() || units.is_reduced() || !reading_.base_known) return;
+    if (gives(section_, "mass") || loader_->sets("mass")) return;
+    if (!options_.element.empty()) {
+      auto const of_element = element_mass(options_.element, units);
+      if (!of_element)
+        throw Error(fmt::format("element: {} has no stable isotope, so that its mass is not known; add mass",
+                                options_.element));
+      for (std::size_t i = 0; i < count_; ++i) particles_->row(i)[mass->offset] = *of_element;
+    } else if (loader_->reads_file()) {
+      take_element_masses(*mass);
+    }
+  }
+
+  /// Of a file without masses. In a base with a unit of mass that the user has chosen, 1 may be meant; 1 kg never is.
+  void take_element_masses(Field const& mass) {
+    UnitSystem const& units = reading_.context.units;
+    auto const masses = loader_->element_masses();
+    std::string const file = loader_->file_name();
+    for (std::size_t i = 0; i < masses.size(); ++i) particles_->row(i)[mass.offset] = masses[i];
+    if (masses.size() == count_)
+      return reading_.note(
+          fmt::format("note: '{}': {} has no masses; those of the elements are taken, and `mass` gives "
+                      "others",
+                      options_.name, file));
+    constexpr char const* cure = "add mass = \"18 amu\" or element = \"O\" to the ensemble";
+    if (set_gives_mass()) return;
+    if (units.scale() == UnitSystem::si().scale() || units.scale() == UnitSystem::cgs().scale())
+      throw Error(
+          fmt::format("load: {} has no masses, and its species are no elements with known masses; {}", file, cure));
+    reading_.note(
+        fmt::format("warning: '{}': {} has no masses, and its species are no elements with known masses: each "
+                    "mass is {}; {}",
+                    options_.name, file, units.text(1, dimensions::mass, 6), cure));
   }
 
   /// Internal energies, and what formulas say. The density goes before: from it follow masses, and other formulas may
@@ -235,6 +305,16 @@ class EnsembleReader {
       return false;
     return !ripple_ || catch_errors(reading_, section_.place("velocity_ripple"),
                                     [&] { velocity_ripple(*particles_, *reading_.box, *ripple_); });
+  }
+
+  /// Whether some [[ensembles.set]] gives masses.
+  bool set_gives_mass() const {
+    Item const* sets = section_.item("set");
+    if (!sets || !sets->is(Item::Kind::array)) return false;
+    return std::any_of(sets->elements.begin(), sets->elements.end(), [](Item const& set) {
+      Entry const* formulas = set.find("formulas");
+      return set.find("mass") || (formulas && formulas->item.find("mass"));
+    });
   }
 
   /// [[ensembles.set]]: other values for some of them.
@@ -330,7 +410,7 @@ Item alike(Item const& table, ReadEnsemble const& of, Reading& reading) {
       continue;
     if (table.find(entry.key) ||
         any_of_these({"name", "class", "integrator", "colour", "diameter", "load", "number", "molecule", "bonds", "set",
-                      "velocity", "temperature", "drift", "remove_drift", "exact_temperature", "quiet",
+                      "element", "velocity", "temperature", "drift", "remove_drift", "exact_temperature", "quiet",
                       "velocity_ripple", "anchor"},
                      entry.key))
       continue;
@@ -344,6 +424,25 @@ Item alike(Item const& table, ReadEnsemble const& of, Reading& reading) {
       std::erase_if(all.entries.back().item.entries, [](Entry const& formula) { return formula.key == "velocity"; });
   }
   return all;
+}
+
+/// Particles of files that no ensemble takes, or several.
+void note_species(Reading& reading) {
+  for (auto const& [path, file] : reading.files) {
+    std::vector<std::string> none, several;
+    for (auto const& [word, species] : file.species) {
+      std::string const text = fmt::format("'{}' ({})", quoted(word), species.particles);
+      if (species.ensembles == 0) none.push_back(text);
+      if (species.ensembles > 1) several.push_back(text);
+    }
+    if (!none.empty())
+      reading.note(fmt::format("note: {}: no ensemble takes the particles of species {}", file.name, some_of(none)));
+    if (!several.empty())
+      reading.note(
+          fmt::format("warning: {}: several ensembles take the particles of species {}, which are there several "
+                      "times; write `species` in each load",
+                      file.name, some_of(several)));
+  }
 }
 
 }  // namespace
@@ -365,6 +464,7 @@ void read_ensembles(Section& document, Reading& reading) {
   if (Item const* item = document.find("ensembles"); item && item->is(Item::Kind::array) && item->elements.empty())
     reading.mistake(item->place, "there are no [[ensembles]]; a scenario needs particles");
   for (Item const* table : tables) EnsembleReader(*table, title_of(*table), reading).read();
+  note_species(reading);
 }
 
 }  // namespace boltzmann

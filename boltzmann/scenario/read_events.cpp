@@ -1,6 +1,8 @@
 // Reads [[events]]: what happens at a time of the run.
 #include <boltzmann/core/quantity_text.hpp>
+#include <boltzmann/core/team.hpp>
 #include <boltzmann/loaders/append.hpp>
+#include <boltzmann/recording/progress.hpp>
 #include <boltzmann/scenario/field_formulas.hpp>
 #include <boltzmann/scenario/loader.hpp>
 #include <boltzmann/scenario/read_options.hpp>
@@ -12,6 +14,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <memory>
 
 namespace boltzmann {
@@ -89,6 +92,17 @@ std::vector<ChosenParticles> who_is_moved(std::vector<Moved> const& moved, doubl
     all.push_back(std::move(one));
   }
   return all;
+}
+
+bool is_nobody(std::vector<ChosenParticles> const& who) {
+  return std::all_of(who.begin(), who.end(), [](ChosenParticles const& one) { return one.which.empty(); });
+}
+
+/// Of an event that happens to no particle.
+void warn_of_nobody(std::string const& where, std::string const& time) {
+  if (team().first())
+    fmt::print(stderr, "{}warning: event at {}: where '{}' is true for no particle\n",
+               rewrites_lines() ? "\r\033[K" : "", time, where);
 }
 
 /// `on` and `where`.
@@ -182,6 +196,8 @@ void read_event(Item const& table, std::size_t number, Reading& reading) {
                                               describe(*set)));
   }
   bool const moves = options.temperature || options.scale || options.kick;
+  Item const* const where = section.item("where");
+  std::string const condition = where && where->is(Item::Kind::text) ? where->text : "";
   if (options.every ? !section.has("times") : section.has("times"))
     reading.mistake(section.place(options.every ? "every" : "times"),
                     "every and times: what happens again needs both, the time between and how often");
@@ -202,6 +218,9 @@ void read_event(Item const& table, std::size_t number, Reading& reading) {
     reading.mistake(table.place, "[[events]]: nothing happens; add 'set', 'add', 'temperature', 'scale' or 'kick'");
   section.finish();
   if (reading.context.mistakes.count() != before) return;
+  if (moves && !condition.empty() && is_nobody(who_is_moved(moved, options.at)))
+    reading.note(fmt::format("note: where: '{}' is true for no particle at the start (event in line {})", condition,
+                             where->place.line));
   using enum ReadEvent::Kind;
   for (std::int64_t time = 0; time < options.times; ++time) {
     double const at = options.at + static_cast<double>(time) * options.every.value_or(0);
@@ -215,12 +234,15 @@ void read_event(Item const& table, std::size_t number, Reading& reading) {
              append(*to, *more);
            }});
     if (moves)
-      reading.events.push_back({at, passing, [=, k = reading.boltzmann_constant()](Simulation& simulation) {
-                                  auto const who = who_is_moved(moved, simulation.time());
-                                  if (options.temperature) scale_to_temperature(who, *options.temperature, k);
-                                  if (options.scale) scale_velocities(who, *options.scale);
-                                  if (options.kick) kick(who, *options.kick);
-                                }});
+      reading.events.push_back(
+          {at, passing, [=, k = reading.boltzmann_constant(), units = reading.context.units](Simulation& simulation) {
+             auto const who = who_is_moved(moved, simulation.time());
+             if (!condition.empty() && is_nobody(who))
+               warn_of_nobody(condition, units.text(simulation.time(), dimensions::time));
+             if (options.temperature) scale_to_temperature(who, *options.temperature, k);
+             if (options.scale) scale_velocities(who, *options.scale);
+             if (options.kick) kick(who, *options.kick);
+           }});
   }
 }
 

@@ -1,4 +1,5 @@
 // Reads load = { kind = ... }: where the particles of an ensemble are.
+#include <boltzmann/core/quantity_text.hpp>
 #include <boltzmann/loaders/jitter.hpp>
 #include <boltzmann/loaders/path_load.hpp>
 #include <boltzmann/loaders/plummer_load.hpp>
@@ -15,6 +16,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <stdexcept>
 #include <utility>
 
@@ -129,6 +131,8 @@ bool Loader::read(std::optional<std::size_t> number, Place const& number_place, 
   }
   if (variant_ && !fits_memory(own_count, *variant_, number ? number_place : place_, reading_)) return false;
   count_ = static_cast<std::size_t>(own_count);
+  if (count_ == 0 && reading_.context.mistakes.count() == 0)
+    reading_.mistake(place_, fmt::format("load \"{}\" gives no particles", *name));
   return count_ > 0;
 }
 
@@ -145,9 +149,8 @@ void Loader::read_spacing(std::optional<std::size_t> number, Place const& number
     if (by_constant) section_.refuse("number_density", "'lattice_constant' says it, too; leave one out");
     if (reading_.dimension == 0) return;
     spacing_known_ = catch_errors(reading_, section_.place(by_constant ? "lattice_constant" : "number_density"), [&] {
-      block_.spacing = by_constant
-                           ? spacing_for_constant(block_.kind, reading_.dimension, *options_.lattice_constant)
-                           : spacing_for_density(block_.kind, reading_.dimension, *options_.number_density);
+      block_.spacing = by_constant ? spacing_for_constant(block_.kind, reading_.dimension, *options_.lattice_constant)
+                                   : spacing_for_density(block_.kind, reading_.dimension, *options_.number_density);
     });
   } else if (kind_->name == "fill" && number) {
     read_corners();
@@ -355,12 +358,13 @@ void Loader::refuse_overlapping_ends(std::array<double, 3> const& lengths) {
     if (!reading_.box->periodic(a) || length - axis <= block_.spacing / 2) continue;
     auto const told = [&](double number) { return reading_.context.units.text(number, dimensions::length, 6); };
     Place const counts = section_.place("counts"), spacing = section_.place("spacing");
-    reading_.mistake(spacing.override_number > counts.override_number ? spacing : counts,
-                     fmt::format("counts: the block is {} long along {}, the periodic axis {}: its ends would overlap{}",
-                                 told(length), "xyz"[a], told(axis),
-                                 options_.spacing && block_.kind != Lattice::square
-                                     ? "; 'spacing' is of nearest neighbours, not the lattice constant"
-                                     : ""));
+    reading_.mistake(
+        spacing.override_number > counts.override_number ? spacing : counts,
+        fmt::format("counts: the block is {} long along {}, the periodic axis {}: its ends would overlap{}",
+                    told(length), "xyz"[a], told(axis),
+                    options_.spacing && block_.kind != Lattice::square
+                        ? "; 'spacing' is of nearest neighbours, not the lattice constant"
+                        : ""));
     return;
   }
 }
@@ -495,9 +499,120 @@ double Loader::read_file() {
         throw Error("path: " + line);
     });
   double count = 0;
-  catch_errors(reading_, section_.place(section_.has("species") ? "species" : "path"),
-               [&] { count = static_cast<double>(count_species(frame_, options_.species)); });
+  catch_errors(reading_, section_.place(section_.has("species") ? "species" : "path"), [&] {
+    count = static_cast<double>(count_species(frame_, options_.species));
+    if (count == 0)
+      throw Error(fmt::format("path: frame {} of '{}' has no particles", options_.frame, file_name()));
+  });
   return count;
+}
+
+namespace {
+
+/// Whether the edges of a lattice are not those of a box with right angles.
+bool is_skew(std::array<double, 9> const& lattice) {
+  for (std::size_t k = 0; k < 9; ++k)
+    if (k % 4 != 0 && lattice[k] != 0) return true;
+  return false;
+}
+
+}  // namespace
+
+std::string Loader::file_name() const { return std::filesystem::path(options_.path).filename().string(); }
+
+bool Loader::sets(std::string_view field) const {
+  if (!kind_) return false;
+  if (kind_->name == "file") return frame_.find(field) != nullptr;
+  if (kind_->name == "frame") return true;
+  return field == "mass" && (kind_->name == "plummer-sphere" || kind_->name == "disc");
+}
+
+std::vector<double> Loader::element_masses() const {
+  return boltzmann::element_masses(frame_, options_.species, reading_.context.units);
+}
+
+/// Where neither the file nor the scenario says what its numbers are in. Positions in angstrom are what XYZ has.
+std::string Loader::assumed_units(AnyEnsemble const& particles, std::vector<std::string> const& given) const {
+  UnitSystem const& units = reading_.context.units;
+  if (units.is_reduced() || !reading_.base_known || !options_.units.empty()) return "";
+  std::vector<std::string> assumed;
+  for (auto const& [name, dimension] : {std::pair<char const*, Dimension>{"position", dimensions::length},
+                                        {"velocity", dimensions::velocity},
+                                        {"mass", dimensions::mass},
+                                        {"charge", dimensions::charge}}) {
+    auto const* column = frame_.find(name);
+    if (!column || !column->unit.empty() || !particles.find_field(name)) continue;
+    if (std::find(given.begin(), given.end(), name) != given.end()) continue;
+    if ((options_.length && dimension == dimensions::length) ||
+        (options_.velocity && dimension == dimensions::velocity))
+      continue;
+    auto const base = units.display(dimension);
+    std::string const text = base.factor == 1 ? base.unit : units.text(1, dimension, 6);
+    bool const usual = dimension == dimensions::length && text == "angstrom";
+    if (!usual) assumed.push_back(fmt::format("{} in {}", name, text));
+  }
+  if (assumed.empty()) return "";
+  return fmt::format("note: '{}': {} has no units, and is read in those of the base ({}); `units` in load names others",
+                     ensemble_, file_name(), join(assumed));
+}
+
+/// Of a stored frame: fields that the class does not have, and another box.
+std::vector<std::string> Loader::notes_of_frame(AnyEnsemble const& particles) const {
+  std::vector<std::string> all, unread;
+  auto const& stored = stored_->find(options_.ensemble);
+  for (auto const& field : stored.fields)
+    if (!particles.find_field(field.name)) unread.push_back(field.name);
+  if (!unread.empty())
+    all.push_back(fmt::format("note: '{}': left aside of {}: {} (a class with fields of these names gets them)",
+                              ensemble_, file_name(), join(unread)));
+  bool const in_units = std::any_of(stored.fields.begin(), stored.fields.end(),
+                                    [](auto const& field) { return field.name == "position" && !field.unit.empty(); });
+  if (!in_units && !reading_.context.units.is_reduced())
+    all.push_back(fmt::format("note: '{}': {} has pure numbers, which are read in the units of the base", ensemble_,
+                              file_name()));
+  if (in_units != !reading_.context.units.is_reduced()) return all;
+  auto const before = stored_->box(stored_frame_, TrajectoryReader::Numbers::written);
+  double unit = 1;
+  for (auto const& field : stored.fields)
+    if (field.name == "position" && in_units)
+      unit = reading_.context.units.from_si(parse_quantity("1 " + field.unit).si, dimensions::length);
+  Box const& box = *reading_.box;
+  for (int a = 0; a < std::min(before.dimension, box.dimension()); ++a) {
+    double const length = unit * (before.high[a] - before.low[a]);
+    if (before.periodic[a] && box.periodic(a) && !(std::abs(length - box.length(a)) <= 1e-6 * length))
+      all.push_back(fmt::format("warning: '{}': the box of {} is {} long along {}, this one {}", ensemble_, file_name(),
+                                reading_.context.units.text(length, dimensions::length, 8), "xyz"[a],
+                                reading_.context.units.text(box.length(a), dimensions::length, 8)));
+  }
+  return all;
+}
+
+std::vector<std::string> Loader::notes(AnyEnsemble const& particles, std::vector<std::string> const& given) const {
+  std::vector<std::string> all;
+  if (kind_ && kind_->name == "frame" && stored_) return notes_of_frame(particles);
+  if (!reads_file()) return all;
+  if (frame_.lattice && is_skew(*frame_.lattice))
+    all.push_back(
+        fmt::format("note: '{}': the box of {} has no right angles; only its atoms are taken", ensemble_, file_name()));
+  auto const aside = left_aside(particles, frame_, given);
+  if (!aside.empty())
+    all.push_back(fmt::format("note: '{}': left aside of {}: {}", ensemble_, file_name(), join(aside, "; ")));
+  if (auto line = assumed_units(particles, given); !line.empty()) all.push_back(std::move(line));
+  auto const* charge = particles.find_field("charge");
+  if (charge && !frame_.find("charge") && std::find(given.begin(), given.end(), "charge") == given.end())
+    all.push_back(
+        fmt::format("note: '{}': {} has no charges, so they are 0; `charge` gives others", ensemble_, file_name()));
+  return all;
+}
+
+void Loader::count_species_taken() const {
+  if (!reads_file()) return;
+  auto& file = reading_.files[fmt::format("{}, frame {}", options_.path, options_.frame)];
+  file.name = file_name();
+  if (file.species.empty())
+    for (auto const& word : frame_.species) ++file.species[word].particles;
+  for (auto const& word : words_of_species(frame_, options_.species))
+    if (auto const found = file.species.find(word); found != file.species.end()) ++found->second.ensembles;
 }
 
 double Loader::read_frame() {
@@ -522,6 +637,23 @@ double Loader::read_frame() {
   return count;
 }
 
-void Loader::load_frame(AnyEnsemble& particles) { stored_->load(stored_frame_, options_.ensemble, particles); }
+/// Numbers of a run in another base are converted; those of the same base keep their bits.
+void Loader::load_frame(AnyEnsemble& particles) {
+  stored_->load(stored_frame_, options_.ensemble, particles);
+  UnitSystem const& units = reading_.context.units;
+  if (units.is_reduced() || !reading_.base_known) return;
+  for (auto const& stored : stored_->find(options_.ensemble).fields) {
+    Field const* field = particles.find_field(stored.name);
+    if (!field || field->components != stored.components || stored.unit.empty()) continue;
+    auto const unit = parse_quantity("1 " + stored.unit);
+    if (unit.dimension != field->dimension)
+      throw Error(fmt::format("path: '{}' has {} in {}, which is no {}", file_name(), stored.name, stored.unit,
+                              name_of(field->dimension)));
+    double const ratio = stored.factor * units.from_si(unit.si, field->dimension);
+    if (std::abs(ratio - 1) < 1e-9) continue;
+    for (std::size_t i = 0; i < particles.size(); ++i)
+      for (int c = 0; c < field->components; ++c) particles.row(i)[field->offset + c] *= ratio;
+  }
+}
 
 }  // namespace boltzmann

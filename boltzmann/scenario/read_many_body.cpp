@@ -129,7 +129,15 @@ void add_to_embedded_atoms(Item const& table, Reading& reading) {
     auto const told = elements.find(ensemble.name());
     bool const by_name =
         std::any_of(known.begin(), known.end(), [&](auto const& element) { return element.name == ensemble.name(); });
-    scheme->add(ensemble, told != elements.end() ? told->second : by_name ? ensemble.name() : "");
+    std::string element;
+    for (auto const& one : reading.ensembles)
+      if (one.particles == &ensemble) element = one.element;
+    bool const by_element =
+        std::any_of(known.begin(), known.end(), [&](auto const& other) { return other.name == element; });
+    scheme->add(ensemble, told != elements.end() ? told->second
+                          : by_element           ? element
+                          : by_name              ? ensemble.name()
+                                                 : "");
   });
 }
 

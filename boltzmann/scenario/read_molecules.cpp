@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 #include <sstream>
 
 namespace boltzmann {
@@ -17,12 +16,10 @@ namespace {
 /// So many whole numbers on each line of a file; behind # anything.
 template <std::size_t N>
 std::vector<std::array<std::uint32_t, N>> read_file(std::string const& path) {
-  need_regular_file(path);
-  std::ifstream file(path);
-  if (!file) throw Error(fmt::format("{} can't be read", path));
+  auto const file = open_text(path, "file");
   std::vector<std::array<std::uint32_t, N>> all;
   std::string line;
-  for (int number = 1; read_line(file, line, path); ++number) {
+  for (int number = 1; read_line(*file, line, path); ++number) {
     line = line.substr(0, line.find('#'));
     if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
     std::istringstream words(line);

@@ -25,6 +25,9 @@ std::optional<std::vector<std::uint32_t>> particles_where(Item const& where, cha
   std::vector<std::uint32_t> which;
   for (std::size_t i = 0; i < ensemble.size(); ++i)
     if ((*formula)(ensemble.row(i)) != 0) which.push_back(static_cast<std::uint32_t>(i));
+  if (which.empty() && ensemble.size() > 0 && where.is(Item::Kind::text))
+    reading.note(fmt::format("warning: {}: '{}' is true for no particle of '{}' (line {})", key, where.text,
+                             ensemble.name(), where.place.line));
   return which;
 }
 
@@ -59,6 +62,8 @@ std::optional<std::vector<std::uint32_t>> read_particles(Section& section, AnyEn
   Item const* item = section.find("particles");
   Item const* where = parts ? nullptr : section.find("where");
   if (item && !parts) section.refuse("where", "'particles' says which, too; leave one out");
+  if (item && item->is(Item::Kind::array) && item->elements.empty())
+    reading.note(fmt::format("warning: particles: the list is empty (line {})", item->place.line));
   if (where) return item || !ensemble ? std::nullopt : particles_where(*where, "where", *ensemble, reading);
   if (!item) return std::nullopt;
   bool const edge = item->is(Item::Kind::text) && item->text == "edge";
@@ -75,7 +80,12 @@ std::optional<std::vector<std::uint32_t>> read_particles(Section& section, AnyEn
                     "particles = \"edge\" needs a 'margin': those nearer than it to a face of the block "
                     "that encloses all, e.g. margin = \"1.5 angstrom\"");
   if (!ensemble || (edge && !margin)) return std::nullopt;
-  return edge ? edge_particles(*ensemble, *margin) : all_indices(*ensemble);
+  if (!edge) return all_indices(*ensemble);
+  auto which = edge_particles(*ensemble, *margin);
+  if (which.empty() && ensemble->size() > 0)
+    reading.note(fmt::format("warning: particles: no particle of '{}' is nearer to the edge than the margin (line {})",
+                             ensemble->name(), item->place.line));
+  return which;
 }
 
 }  // namespace boltzmann

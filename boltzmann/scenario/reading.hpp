@@ -23,6 +23,7 @@
 #include <boltzmann/simulation/vortex_relaxation.hpp>
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <set>
@@ -68,6 +69,7 @@ struct ReadEnsemble {
   std::optional<BoundMaterial> material;  ///< of smooth particles
   std::optional<StateLaw> state;          ///< of internal energies
   ReadMolecules molecules = {};
+  std::string element = {};  ///< "Cu"; empty: not told
 
   bool smooth() const { return kind && kind->matter != Matter::none; }
 };
@@ -145,6 +147,15 @@ struct ReadEquilibration {
   std::uint64_t steps = 0;
 };
 
+/// A file of particles, and which of its species ensembles have taken.
+struct ReadFile {
+  struct Species {
+    std::size_t particles = 0, ensembles = 0;
+  };
+  std::string name = {};  ///< without its folder
+  std::map<std::string, Species> species = {};
+};
+
 /// Everything that has been read so far. What could not be read is empty, and has left a mistake.
 struct Reading {
   ReadContext context;
@@ -181,8 +192,11 @@ struct Reading {
   std::optional<Place> jump = {};  ///< a law whose energy jumps at its cut-off, without a tail
   std::vector<Settable> settable = {};
   std::vector<ReadEvent> events = {};
+  std::map<std::string, ReadFile> files = {};  ///< of particles, by path and frame
 
   void mistake(Place const& place, std::string message) { context.mistakes.add(place, std::move(message)); }
+  /// A line that `bzm check` and a run print, once: "note: ..." or "warning: ...".
+  void note(std::string line);
   std::vector<std::string> ensemble_names() const;
   /// The ensemble that a word names; nullptr and a mistake if there is none.
   ReadEnsemble* ensemble(Item const& word, std::string_view key);

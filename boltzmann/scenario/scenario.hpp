@@ -74,6 +74,8 @@ struct ScenarioSimulation {
   std::vector<ScenarioParameter> absent;      ///< keys that its tables could have, too; only for a page
   std::vector<DerivedClassText> classes;      ///< its own
   std::vector<TypedLaw> typed_laws;           ///< of pairs
+  std::vector<std::string> notes;  ///< "note: ..." or "warning: ...": what files hold and nothing uses, empty groups
+  std::vector<std::pair<std::string, std::string>> elements;  ///< of ensembles: "atoms", "Cu"
 
   Box const& box() const { return schemes.front()->box(); }
   /// The scheme of this kind, scheme<MeshScheme>(); null if there is none.

@@ -20,6 +20,7 @@ std::unique_ptr<Recording> make_recording(ScenarioSimulation& scenario, std::str
   if (output.diagnoses > 0)
     for (auto& diagnosis : scenario.diagnoses)
       recording->diagnose(static_cast<std::uint64_t>(output.diagnoses), std::move(diagnosis));
+  recording->elements(scenario.elements);
   if (output.trajectory > 0) recording->trajectory(static_cast<std::uint64_t>(output.trajectory));
   if (output.mesh > 0) recording->mesh(static_cast<std::uint64_t>(output.mesh));
   if (output.checkpoint > 0) recording->checkpoint(static_cast<std::uint64_t>(output.checkpoint));

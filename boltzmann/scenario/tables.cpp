@@ -193,6 +193,11 @@ OptionTable make_ensemble_options() {  // long: a table, a row for each key
                "in a list, or on the lines of a file",
                "none");
   all.add_said("formulas", "a table of [formulas](#formulas)", "fields that depend on the place", "none");
+  all.add("element", &E::element, text(),
+          "the symbol of a chemical element, `\"Cu\"`. Exports name the particles by it. It gives their mass if "
+          "nothing else "
+          "does, and their element in `[embedded_atoms]`",
+          "none");
   all.add("temperature", &E::temperature, number(dimensions::temperature, not_negative),
           "velocities from Maxwell's distribution", "none");
   all.add("drift", &E::drift, vector(dimensions::velocity), "a common velocity, added to these", "none");

@@ -75,6 +75,7 @@ struct EnsembleOptions {
   std::optional<Method> integrator;
   std::size_t number = 0, molecule = 0;
   Appearance appearance;
+  std::string element;
   std::optional<double> temperature;
   MaxwellianOptions thermal;
   std::optional<std::array<double, 3>> drift;

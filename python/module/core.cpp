@@ -288,6 +288,7 @@ std::vector<std::string> Core::drift_lines() {
 std::vector<std::string> Core::warnings() {
   std::vector<std::string> all;
   auto const add = [&](std::vector<std::string> const& lines) { all.insert(all.end(), lines.begin(), lines.end()); };
+  add(scenario_->notes);
   for (auto* scheme : simulation().schemes()) add(scheme->warnings(simulation().step_size()));
   for (auto* dissipation : simulation().dissipations()) add(dissipation->warnings(simulation().step_size()));
   return all;

@@ -40,7 +40,7 @@ TEST_F(Export, WritesEveryFormat) {
   auto const xyz = run({"gas", "-o", "gas.xyz"});
   ASSERT_EQ(xyz.status, 0) << xyz.err;
   EXPECT_EQ(xyz.out, "gas.xyz: 5 frames, position, mass, velocity, units: metal\n");
-  EXPECT_EQ(xyz.err, "");
+  EXPECT_NE(xyz.err.find("note: 'atoms' is no chemical symbol"), std::string::npos) << xyz.err;
   EXPECT_EQ(lines_in(text_of(*folder_ / "gas.xyz")), 5U * 258);
   for (auto const* file : {"gas.extxyz", "gas.dump", "gas.lammpstrj", "gas.pvd", "gas.csv"})
     EXPECT_EQ(run({"gas", "-o", file}).status, 0) << file;

@@ -146,10 +146,18 @@ void read_particles_of(std::string const& text) {
   auto const path = file_of("fuzz.xyz", text);
   auto const formats = particle_file_formats();
   std::string const format(formats[text.size() % formats.size()].name);
-  for (std::size_t frame = 0; frame < 2; ++frame) try {
-      auto const found = from_particle_file(path, {.frame = frame, .format = format});
+  Box const box({0, 0, 0}, {4, 4, 4}, Boundary::periodic);
+  for (std::size_t frame = 0; frame < 3; ++frame) try {
+      // The last time by what the file looks like.
+      auto const found = from_particle_file(path, {.frame = frame % 2, .format = frame < 2 ? format : ""});
       Ensemble<Newton<3>> atoms("atoms");
       frame_load(atoms, found, {.units = UnitSystem::si(), .resize = true});
+      left_aside(atoms, found);
+      element_masses(found, "", UnitSystem::si());
+      lattice_misfit(found, box, {.units = UnitSystem::si()});
+      for (auto const& column : found.columns)
+        if (column.values.size() != found.size() * static_cast<std::size_t>(column.components))
+          throw std::logic_error("a column has not a number for each particle: " + column.name);
     } catch (Error const& error) {
       if (std::string(error.what()).find('\n') != std::string::npos)
         throw std::logic_error(std::string("not one line: ") + error.what());
@@ -169,14 +177,21 @@ std::vector<std::string> particle_seeds() {
       for_format(1,
                  "units = real\n\n2 atoms\n1 atom types\n0 9 xlo xhi\n0 9 ylo yhi\n0 9 zlo zhi\n\nMasses\n\n1 40 # "
                  "Ar\n\nAtoms # charge\n\n2 1 0.5 1 2 3\n1 1 -1 3 2 1\n\nVelocities\n\n1 0 0 0\n2 1 1 1\n"),
+      for_format(
+          1,
+          "c\n\n1 atoms\n1 atom types\n4 0 0 avec\n0 4 0 bvec\n0 0 4 cvec\n0 0 0 abc origin\n\nAtom Type Labels\n\n"
+          "1 Ar\n\nAtoms # sphere\n\n1 Ar 1 1 1 2 3 0 0 1\n\nVelocities\n\n1 0 0 0 1 1 1\n\nCMAP\n\n1 2 3\n"),
       for_format(2,
                  "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS xy xz yz pp pp ff\n0 4 1\n0 4 0\n0 4 "
                  "0\nITEM: ATOMS id type xs ys zs vx vy vz\n1 1 0.5 0.5 0.5 1 2 3\n"),
       for_format(3,
                  "CRYST1   18.774   18.774   18.774  90.00  80.00  90.00 P 1           1\nMODEL        1\n"
-                 "ATOM      1  OW  SOL     1       5.690  12.751  11.651  1.00  0.00           O  \nENDMDL\n"),
+                 "ATOM      1  OW  SOL     1       5.690  12.751  11.651  1.00  0.00           O  \nENDMDL\nCONECT    "
+                 "1    2\n"),
       for_format(4, "t\n1\n    1WATER  OW1    1   0.126   1.624   1.679  0.1227 -0.0580  0.0434\n   1.8   1.8   1.8\n"),
-      for_format(5, "t\n-64\n1 0 0\n0 1 0\n0 0 1\nNa Cl\n1 1\nDirect\n0 0 0\n0.5 0.5 0.5\n\n1 0 0\n0 1 0\n")};
+      for_format(5,
+                 "t\n-64\n1 0 0\n0 1 0\n0 0 1\nNa Cl\n1 1\nSelective\nDirect\n0 0 0 T T F\n0.5 0.5 0.5 T T T\n"
+                 "Lattice velocities\n1\n0 0 0\n0 0 0\n0 0 0\n4 0 0\n0 4 0\n0 0 4\n\n1 0 0\n0 1 0\n\n1\n")};
 }
 
 void read_table(std::string const& text) {

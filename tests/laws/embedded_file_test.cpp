@@ -88,6 +88,80 @@ TEST(EmbeddedFile, GivesTheFunctionsItWasMadeOf) {
   EXPECT_EQ(slope[1], slope[0]);
 }
 
+// eam.fs: the density of an atom depends on the element at which it acts, too.
+double density_at(int source, int place, double r) { return density(source, r) * (1 + 0.3 * place); }
+
+std::string finnis_sinclair() {
+  std::string text = "made for a test\nof two metals\nthat don't exist\n2 Aa Bb\n" + head();
+  for (int a = 0; a < 2; ++a) {
+    text += "29 63.55 3.615 FCC\n" + numbers(points, [&](int k) { return embedding(a, k * densities); });
+    for (int b = 0; b < 2; ++b) text += numbers(points, [&](int k) { return density_at(a, b, k * spacing); });
+  }
+  for (int a = 0; a < 2; ++a)
+    for (int b = 0; b <= a; ++b) text += numbers(points, [&](int k) { return k * spacing * pair(a, b, k * spacing); });
+  return text;
+}
+
+TEST(EmbeddedFile, OfFinnisAndSinclairHasADensityForEachTwoElements) {
+  UnitSystem const units(1 * units::angstrom, 1 * units::amu, 1 * units::picosecond);
+  double const eV = units(1 * units::electronvolt);
+  File file;
+  file.write(finnis_sinclair());
+  auto const atoms = EmbeddedAtoms::from_file(file.path(), units);
+  for (double r = 1.1; r < cutoff; r += 0.0731)
+    for (int a = 0; a < 2; ++a)
+      for (int b = 0; b < 2; ++b) {
+        auto const x = std::size_t(a), y = std::size_t(b);
+        EXPECT_NEAR(atoms.pair_energy(r, x, y) / eV, pair(a, b, r), 1e-6);
+        EXPECT_NEAR(atoms.density(r, x, y), density_at(b, a, r), 1e-6);  // that of b at a
+      }
+  // Energies and forces of five atoms, against sums over all pairs.
+  Ensemble<Newton<3>> first("first", 3), second("second", 2);
+  EmbeddedAtomScheme scheme(Box({-20, -20, -20}, {20, 20, 20}, Boundary::open), atoms);
+  scheme.add(first, "Aa");
+  scheme.add(second, "Bb");
+  std::vector<std::pair<int, double*>> all;
+  for (auto& p : first) all.emplace_back(0, &p.position[0]);
+  for (auto& p : second) all.emplace_back(1, &p.position[0]);
+  double const places[5][3] = {{0, 0, 0}, {2.1, 0.3, 0}, {0.4, 2.5, 0.2}, {1.5, 1.2, 1.9}, {-1.7, 0.8, 1.1}};
+  for (std::size_t i = 0; i < 5; ++i) std::copy_n(places[i], 3, all[i].second);
+  auto const energy = [&] {
+    double sum = 0;
+    for (auto const& [a, x] : all) {
+      double rho = 0;
+      for (auto const& [b, y] : all) {
+        double const r = std::hypot(x[0] - y[0], x[1] - y[1], x[2] - y[2]);
+        if (x == y || r >= cutoff) continue;
+        rho += density_at(b, a, r);
+        sum += 0.5 * pair(a, b, r);
+      }
+      sum += embedding(a, rho);
+    }
+    return sum;
+  };
+  scheme.calculate(0);
+  EXPECT_NEAR(scheme.measure().potential / eV, energy(), 1e-4);
+  for (std::size_t i = 0; i < 5; ++i)
+    for (std::size_t c = 0; c < 3; ++c) {
+      double const h = 1e-5, x = all[i].second[c];
+      all[i].second[c] = x + h;
+      double const up = energy();
+      all[i].second[c] = x - h;
+      double const down = energy();
+      all[i].second[c] = x;
+      double const force = i < 3 ? first.influence(i)[c] : second.influence(i - 3)[c];
+      EXPECT_NEAR(force / eV, (down - up) / (2 * h), 2e-3) << i << " " << c;
+    }
+}
+
+TEST(EmbeddedFile, MoreNumbersThanItsTablesAreRefused) {
+  File file;
+  file.write(setfl(2) + "\n\nmade by hand\n");
+  EXPECT_NO_THROW(EmbeddedAtoms::from_file(file.path(), UnitSystem()));
+  file.write(setfl(2) + numbers(points, [](int) { return 0.5; }));  // as files of adp have them
+  EXPECT_NE(file.error().find("follows the last table"), std::string::npos) << file.error();
+}
+
 TEST(EmbeddedFile, OfTheOlderFormatHasEffectiveCharges) {
   File file;
   auto const charge = [](double r) { return 4 * ending(r); };

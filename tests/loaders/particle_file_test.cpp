@@ -97,7 +97,9 @@ TEST_F(ParticleFile, LammpsDataOfOtherStyles) {
   EXPECT_EQ(values(read("a.data", head + six, {.style = "charge"}), "charge"), (Numbers{-1, 1}));
   EXPECT_EQ(values(read("a.data", head + "Atoms # molecular\n\n1 1 1 1 2 0\n2 1 1 3 4 0\n"), "position"),
             (Numbers{1, 2, 0, 3, 4, 0}));
-  EXPECT_NE(message("a.data", head + six).find(":10: of 6 words an atom may be of style charge or molecular"),
+  EXPECT_NE(message("a.data", head + six)
+                .find(":10: of 6 words an atom may be of style charge or bond or angle or molecular: "
+                      "write 'Atoms # charge' in the file, or style = \"charge\" in load"),
             std::string::npos)
       << message("a.data", head + six);
   // LAMMPS' units on demand, in 2D.
@@ -250,8 +252,9 @@ TEST_F(ParticleFile, MistakesNameTheirLine) {
   EXPECT_EQ(message("w.data", without(water, "3 1 2 0.4238", "2 1 2 0.4238")), ":26: there is an atom 2 already");
   EXPECT_EQ(message("w.data", without(water, "3 0 0 -0.003", "4 0 0 -0.003")), ":31: there is no atom 4");
   EXPECT_EQ(message("w.data", without(water, "-1 9 xlo", "9 9 xlo")), ":8: the box goes from 9 to 9 along x");
-  EXPECT_EQ(message("w.data", without(water, "# full", "# sphere")),
-            ":22: atom style 'sphere' can't be read; those that can are atomic, charge, bond, angle, molecular, full");
+  EXPECT_EQ(message("w.data", without(water, "# full", "# hybrid")),
+            ":22: atom style 'hybrid' can't be read; those that can are atomic, charge, bond, angle, molecular, full, "
+            "sphere, bpm/sphere, dipole");
   EXPECT_EQ(message("w.data", without(water, "units = real", "units = reel")),
             "there are no units 'reel'; there are metal, real, si, cgs, micro, nano; did you mean 'real'?");
   EXPECT_EQ(message("w.dump", ""), ":1: the LAMMPS dump is empty");
@@ -264,6 +267,241 @@ TEST_F(ParticleFile, MistakesNameTheirLine) {
   EXPECT_EQ(message("w.xyz", "", {.format = "pdf"}),
             "there is no format 'pdf'; there are xyz, lammps-data, lammps-dump, pdb, gro, poscar; did you mean 'pdb'?");
   EXPECT_NE(message("w.data", water, {.frame = 1}).find("LAMMPS data is one frame"), std::string::npos);
+}
+
+// Kind of fault: a file that contradicts itself was read in part. One line each, in every format.
+TEST_F(ParticleFile, ContradictionsAreRefused) {
+  auto const with = [](std::string text, std::string const& part, std::string const& other) {
+    auto const at = text.find(part);
+    EXPECT_NE(at, std::string::npos) << part;
+    return at == std::string::npos ? text : text.replace(at, part.size(), other);
+  };
+  struct Wrong {
+    std::string file, text, words;
+  };
+  std::string const dump =
+      "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n2\nITEM: BOX BOUNDS pp pp pp\n0 9\n0 9\n0 9\n"
+      "ITEM: ATOMS id type x y z\n1 1 1 1 1\n2 1 2 2 2\n";
+  std::string const xyz = "2\nProperties=species:S:1:pos:R:3:id:I:1 pbc=\"T T F\"\nC 0 0 0 1\nC 1 1 1 2\n";
+  std::string const gro =
+      "t\n2\n    1WATER  OW1    1   0.126   1.624   1.679  0.1227 -0.0580  0.0434\n"
+      "    1WATER  HW2    2   0.190   1.661   1.747  0.8085  0.3191 -0.7791\n   1.8   1.8   1.8\n";
+  std::string const pdb =
+      "CRYST1   18.774   18.774   18.774  90.00  90.00  90.00 P 1           1\nMODEL        1\n"
+      "ATOM      1  OW  SOL     1       5.690  12.751  11.651  1.00  0.00           O  \n"
+      "ATOM      2  HW1 SOL     1       4.760  12.681  11.281  1.00  0.00           H  \nENDMDL\n";
+  std::string const vasp = "t\n1\n4 0 0\n0 4 0\n0 0 4\nNa Cl\n1 1\nDirect\n0 0 0\n0.5 0.5 0.5\n";
+  for (auto const& [file, text, words] : {
+           Wrong{"w.data", with(water, "3 atoms", "2 atoms"), "the section Atoms has more lines than the 2 atoms"},
+           {"w.data", with(water, "2 bonds", "3 bonds"), "the section Bonds has 2 lines, the header says 3"},
+           {"w.data", with(water, "2 bonds\n", ""), "the section Bonds has 2 lines, the header says 0"},
+           {"w.data", with(water, "2 bonds", "2 bonds\n4 angles"),
+            "the header says 4 angles, and there is no section Angles"},
+           {"w.data", with(water, "2 atom types", "1 atom types"), "there is no type 2; the header says 1 atom types"},
+           {"w.data", with(water, "3 1 2 0.4238", "3 1 3 0.4238"), "there is no type 3; the header says 2 atom types"},
+           {"w.data", with(water, "3 atoms", "3 atoms\n3 atoms"), "the header says 'atoms' twice"},
+           {"w.data", with(water, "Bonds\n", "Masses\n"), "there is a section Masses already"},
+           {"w.data", with(water, "2 1.00794 # H", "1 1.00794 # H"), "Masses has type '1' already"},
+           {"w.data", with(water, "3 0 0 -0.003", "1 0 0 -0.003"), "atom 1 has a velocity already"},
+           {"w.data", with(water, "3 0 0 -0.003\n", ""), "the section Velocities ends after 2 of its 3 atoms"},
+           {"w.data", with(water, "1.5 2.0 3.0 0 1 0", "1.5 2.0 3.0"), "this line has 7, those before it have flags"},
+           {"w.data", with(water, "0.0 10.0 ylo yhi", "10 0 0 bvec\n0 9 0 avec\n0 0 9 cvec"), "the box twice"},
+           {"w.data", with(water, "2 bonds", "two bonds"),
+            ":5: 'two bonds' is neither a line of the header nor a section"},
+           {"w.data", with(water, "2 1.00794 # H\n", ""), "Masses has 1 types, the header says 2"},
+           {"w.dump", with(dump, "2 1 2 2 2", "1 1 2 2 2"), ":11: there is an atom 1 already"},
+           {"w.dump", with(dump, "2 1 2 2 2", "2 1 2 2 2 2"), ":11: an atom needs 5 words, this line has 6"},
+           {"w.dump", dump + "3 1 3 3 3\n", ":12: the frame has more lines than its 2 atoms"},
+           {"w.dump", with(dump, "2 1 2 2 2\n", "ITEM: TIMESTEP\n"), "the frame ends after 1 of its 2 atoms"},
+           {"w.dump", with(dump, "ITEM: ATOMS", "ITEM: TIMESTEP\n1\nITEM: ATOMS"),
+            "the frame has ITEM: TIMESTEP already"},
+           {"w.dump", with(dump, "type x y z", "x x y z"), "two columns are called 'x'"},
+           {"w.dump", with(dump, "0 9\n", "9 0\n"), "the box goes from 9 to 0 along x"},
+           {"w.dump", with(dump, "ITEM: ATOMS", "ITEM: NUMBER OF ENTRIES\n1\nITEM: ATOMS"),
+            "can't be read; those that can"},
+           {"w.xyz", with(xyz, "1 1 1 2", "1 1 1 1"), ":4: there is an atom 1 already"},
+           {"w.xyz", xyz + "C 2 2 2 3\n", "is not a number of particles, with which a frame begins"},
+           {"w.xyz", with(xyz, "1 1 1 2", "1 1 1 2 3"), "a particle needs 5 words, this line has 6"},
+           {"w.xyz", with(xyz, "T T F", "T T"), "pbc=\"T T\" is not T or F for each of three axes"},
+           {"w.xyz", with(xyz, "T T F", "T T yes"), "pbc: 'yes' is neither T nor F"},
+           {"w.xyz", with(xyz, "pbc", "pbc=T pbc"), "the comment line has two of pbc="},
+           {"w.xyz", with(xyz, "id:I:1", "pos:R:1"), "Properties: two columns are the position"},
+           {"w.xyz", "2\n\nC 0 0 0 5\nC 1 1 1\n", ":4: a particle needs 5 words, this line has 4"},
+           {"w.gro", with(gro, "  0.8085  0.3191 -0.7791", ""),
+            ":4: this atom has no velocity, those before it have one"},
+           {"w.gro", with(gro, "  0.1227 -0.0580  0.0434", ""),
+            ":4: this atom has a velocity, those before it have none"},
+           {"w.gro", with(gro, " -0.7791", ""), ":4: an atom has three components of its velocity"},
+           {"w.gro", with(gro, "t\n2", "t\n1"), ":4: '1WATER' is not a number (edge of the box)"},
+           {"w.gro", with(gro, "HW2    2", "OW1    1"), "is there twice"},
+           {"w.gro", with(gro, "   1.8   1.8   1.8", "1 2 3 4"), "the edges of the box are 3 numbers, or 9"},
+           {"w.pdb", with(pdb, "2  HW1", "1  OW "), "is there twice"},
+           {"w.pdb", with(pdb, "ENDMDL\n", ""), "the file ends within model 1: there is no ENDMDL"},
+           {"w.pdb", with(pdb, "MODEL        1\n", "MODEL        1\nMODEL        2\n"), "MODEL within a model"},
+           {"w.pdb", with(pdb, "MODEL        1\n", "ENDMDL\n"), "ENDMDL without a MODEL or atoms before it"},
+           {"w.pdb", with(pdb, "HW1 SOL", "HW1BSOL"), "the file has alternate places of an atom ('B' in column 17)"},
+           {"w.pdb", with(pdb, " 4.760  12.681", " 4.7 6  12.681"), "'4.7 6' is not a number (position)"},
+           {"w.vasp", vasp + "0.25 0.25 0.25\n", "'0.25 0.25 0.25' follows the 2 atoms"},
+           {"w.vasp", with(vasp, "1 1\nDirect", "1 1 2\nDirect"), "there are 2 elements and more numbers of atoms"},
+           {"w.vasp", vasp + "\n1 0 0\n", "the file ends after 1 of the 2 velocities"},
+           {"w.vasp", vasp + "\n1 0 0\n0 1 0\n0 0 1\n", "'0 0 1' follows the 2 velocities"},
+           {"w.vasp", with(vasp, "Direct", "Selective dynamics\nDirect"), "T or F for each of three axes"},
+       })
+    EXPECT_NE(message(file, text).find(words), std::string::npos) << file << ", " << words << ":\n"
+                                                                  << message(file, text);
+}
+
+// Kind of fault: columns and records that were ignored without a word. Each is a column, or is told.
+TEST_F(ParticleFile, WhatNoColumnHoldsIsTold) {
+  Ensemble<Coulomb<3>> atoms("a");
+  auto const told = [&](std::string const& name, std::string const& text, ParticleFileOptions const& options = {}) {
+    return join(left_aside(atoms, read(name, text, options)), "; ");
+  };
+  EXPECT_EQ(
+      told("w.data", water),
+      "mol, iy (a class with fields of these names gets them); section Pair Coeffs ([[influences]] give laws); section "
+      "Bonds (2 lines; `bonds` of the ensemble gives them)");
+  EXPECT_EQ(told("w.data",
+                 "c\n\n1 atoms\n1 atom types\n2 crossterms\n\nAtoms # atomic\n\n1 1 0 0 0\n\nCMAP\n\n1 1 2\n2 1 3\n"),
+            "section CMAP (it belongs to a command of LAMMPS)");
+  EXPECT_EQ(
+      told("w.dump", "ITEM: NUMBER OF ATOMS\n1\nITEM: ATOMS id type x y z fx ix mol name vx\n1 1 0 0 0 2 0 3 Bob 1\n"),
+      "fx, mol, vx (a class with fields of these names gets them); name (words, which no field holds)");
+  EXPECT_EQ(told("w.xyz", "1\n\nC 0 0 0 1 2 3\n"),
+            "words 5 to 7 of each line (Properties= in the comment line names them: "
+            "Properties=species:S:1:pos:R:3:velo:R:3)");
+  EXPECT_EQ(told("w.xyz",
+                 "1\nProperties=species:S:1:pos:R:3:forces:R:3:fixed:L:1:name:S:1:velo:R:3\nC 0 0 0 1 2 3 T x 1 1 1\n"),
+            "forces, fixed (a class with fields of these names gets them); name (words, which no field holds)");
+  EXPECT_EQ(
+      told("w.pdb",
+           "CRYST1   18.774   18.774   18.774  90.00  90.00  90.00 P 21          1\n"
+           "ATOM      1  OW  SOL     1       5.690  12.751  11.651  1.00  0.50           O1-\n"
+           "ATOM      2  HW1 SOL     2       4.760  12.681  11.281  0.50  0.50           H  \n"
+           "CONECT    1    2\nEND\n"),
+      "residue, occupancy, temperature_factor (a class with fields of these names gets them); the symmetry of space "
+      "group P 21 (only the atoms of the file are read; write all of the cell); 1 records of bonds (CONECT, SSBOND, "
+      "LINK; give them as `bonds` of the ensemble)");
+  EXPECT_EQ(
+      told(
+          "w.gro",
+          "t\n2\n    1SOL     OW    1   0.126   1.624   1.679\n    2SOL     OW    2   0.226   1.624   1.679\n 2 2 2\n"),
+      "residue (a class with fields of these names gets them)");
+  std::string const vasp = "t\n1\n4 0 0\n0 4 0\n0 0 4\nNa_pv\n1\nSelective dynamics\nDirect\n0 0 0 T F T\n";
+  EXPECT_EQ(told("w.vasp", vasp),
+            "selective dynamics, by which 1 atoms are held (freeze = true in [[ensembles.set]] holds them)");
+  EXPECT_EQ(
+      told("w.vasp", vasp + "Direct\n1 0 0\n"),
+      "selective dynamics, by which 1 atoms are held (freeze = true in [[ensembles.set]] holds them); velocities in "
+      "parts of the lattice and the time step (write them as Cartesian)");
+}
+
+// CONTCAR as VASP writes it after a run at constant pressure: velocities of the lattice go before those of atoms.
+TEST_F(ParticleFile, VelocitiesOfContcar) {
+  std::string const start = "t\n1\n4 0 0\n0 4 0\n0 0 4\nNa/1a2b Cl\n1 1\nDirect\n0 0 0\n0.5 0.5 0.5\n",
+                    lattice = "Lattice velocities and vectors\n 1\n 0 0 0\n 0 0 0\n 0 0 0\n 4 0 0\n 0 4 0\n 0 0 4\n",
+                    velocities = " 0.1E-02  0 0\n 0 -2e-3 0\n", predictor = "\n 1\n 0.5\n 0 0 0\n";
+  for (auto const& text : {"\n" + velocities, "Cartesian\n" + velocities, lattice + "\n" + velocities,
+                           "\n" + velocities + predictor, "\n\n" + velocities + "\n\n"}) {
+    auto const frame = read("CONTCAR", start + text);
+    EXPECT_EQ(values(frame, "velocity"), (Numbers{0.001, 0, 0, 0, -0.002, 0})) << text;
+    EXPECT_EQ(frame.species, (Words{"Na", "Cl"}));
+    EXPECT_EQ(count_species(frame, "Na/1a2b"), 1U);
+    bool const more = text.find("Lattice") != std::string::npos || text.find(predictor) != std::string::npos;
+    EXPECT_EQ(frame.left_aside.size(), more ? 1U : 0U) << text;
+  }
+  EXPECT_FALSE(read("CONTCAR", start + "\n\n").find("velocity"));
+  EXPECT_FALSE(read("CONTCAR", start).find("velocity"));
+}
+
+TEST_F(ParticleFile, EverySpellingOfPeriodicAxes) {
+  for (char const* pbc : {"pbc=\"T F T\"", "pbc=\"true false true\"", "pbc=\"True False True\"",
+                          "pbc=\"TRUE FALSE TRUE\"", "pbc=\"1 0 1\"", "pbc='T F T'", "pbc={T F T}", "pbc=[T, F, T]",
+                          "pbc=[true,false,true]", "PBC=\"t f t\"", "pbc = \"T F T\""}) {
+    auto const frame = read("a.xyz", std::string("1\nLattice=\"4 0 0 0 4 0 0 0 4\" ") + pbc + " energy=-1\nC 0 0 0\n");
+    bool const spaced = std::string(pbc).find(" = ") != std::string::npos;  // which is no pair of key and value
+    EXPECT_EQ(frame.periodic, (std::array{true, spaced, true})) << pbc;
+  }
+  EXPECT_EQ(read("a.xyz", "1\nLattice=\"4 0 0 0 4 0 0 0 4\" pbc=F\nC 0 0 0\n").periodic,
+            (std::array{false, false, false}));
+  for (char const* lattice :
+       {"Lattice=[[4, 0, 0], [0, 5, 0], [0, 0, 6]]", "Lattice={4 0 0 0 5 0 0 0 6}", "lattice='4 0 0 0 5 0 0 0 6'"})
+    EXPECT_EQ((*read("a.xyz", std::string("1\n") + lattice + "\nC 0 0 0\n").lattice)[4], 5) << lattice;
+}
+
+// Boxes that have no right angles, in every format, against a periodic box.
+TEST_F(ParticleFile, SkewLatticesDoNotFit) {
+  Box const box({0, 0, 0}, {4, 4, 4}, Boundary::periodic);
+  auto const misfit = [&](std::string const& name, std::string const& text) {
+    return lattice_misfit(read(name, text), box, {.units = atomic});
+  };
+  std::string const said = "the file's lattice is skew along x; a periodic box has right angles";
+  auto const data = [](std::string const& edges) {
+    return "c\n\n1 atoms\n1 atom types\n" + edges + "\nAtoms # atomic\n\n1 1 0 0 0\n";
+  };
+  std::string const straight = "0 4 xlo xhi\n0 4 ylo yhi\n0 4 zlo zhi\n";
+  EXPECT_EQ(misfit("a.data", data(straight)), "");
+  EXPECT_EQ(misfit("a.data", data(straight + "0 0 0 xy xz yz\n")), "");
+  EXPECT_EQ(misfit("a.data", data(straight + "1 0 0 xy xz yz\n")), said);
+  EXPECT_EQ(misfit("a.data", data("4 0 0 avec\n0 4 0 bvec\n0 0 4 cvec\n0 0 0 abc origin\n")), "");
+  EXPECT_EQ(misfit("a.data", data("4 0 0 avec\n2 4 0 bvec\n0 0 4 cvec\n0 0 0 abc origin\n")), said);
+  auto const dump = [](std::string const& bounds) {
+    return "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS " + bounds +
+           "ITEM: ATOMS id type x y z\n1 1 0 0 0\n";
+  };
+  EXPECT_EQ(misfit("a.dump", dump("xy xz yz pp pp pp\n0 4 0\n0 4 0\n0 4 0\n")), "");
+  EXPECT_EQ(misfit("a.dump", dump("xy xz yz pp pp pp\n0 5 1\n0 4 0\n0 4 0\n")), said);
+  EXPECT_EQ(misfit("a.dump", dump("abc origin pp pp pp\n4 0 0 0\n0 4 0 0\n0 0 4 0\n")), "");
+  EXPECT_EQ(misfit("a.dump", dump("abc origin pp pp pp\n4 0 0 0\n1 4 0 0\n0 0 4 0\n")), said);
+  auto const pdb = [](char const* angles) {
+    return std::string("CRYST1    4.000    4.000    4.000") + angles +
+           " P 1           1\nATOM      1  OW  SOL     1       1.000   2.000   3.000  1.00  0.00           O\nEND\n";
+  };
+  EXPECT_EQ(misfit("a.pdb", pdb("  90.00  90.00  90.00")), "");
+  EXPECT_EQ(misfit("a.pdb", pdb("  90.00  90.00  80.00")), said);
+  auto const gro = [](std::string const& edges) {
+    return "t\n1\n    1SOL     OW    1   0.126   0.124   0.179\n" + edges + "\n";
+  };
+  EXPECT_EQ(misfit("a.gro", gro("0.4 0.4 0.4 0 0 0 0 0 0")), "");
+  EXPECT_EQ(misfit("a.gro", gro("0.4 0.4 0.4 0 0 0.1 0 0 0")), said);
+  auto const vasp = [](std::string const& second) {
+    return "t\n1\n4 0 0\n" + second + "\n0 0 4\nNa\n1\nDirect\n0 0 0\n";
+  };
+  EXPECT_EQ(misfit("a.vasp", vasp("0 4 0")), "");
+  EXPECT_EQ(misfit("a.vasp", vasp("1 4 0")), said);
+  EXPECT_EQ(misfit("a.xyz", "1\nLattice=\"4 0 0 1 4 0 0 0 4\"\nC 0 0 0\n"), said);
+}
+
+// A file of each format under a name that says nothing, plain.
+TEST_F(ParticleFile, AreKnownByTheirFirstLines) {
+  for (auto const& text :
+       {std::string("1\n\nC 0 0 0\n"), water, std::string("ITEM: NUMBER OF ATOMS\n1\nITEM: ATOMS id x y z\n1 0 0 0\n"),
+        std::string("REMARK\nATOM      1  OW  SOL     1       1.000   2.000   3.000\n"),
+        std::string("t\n1\n    1SOL     OW    1   0.126   0.124   0.179\n 2 2 2\n"),
+        std::string("t\n1\n4 0 0\n0 4 0\n0 0 4\nNa\n1\nDirect\n0 0 0\n")})
+    for (char const* name : {"data.one", "POSCAR_1", "file", "x.txt"}) {
+      SCOPED_TRACE(name + (":\n" + text));
+      EXPECT_NO_THROW(read(name, text));
+    }
+  EXPECT_NE(message("file", "nothing\nof this kind\n").find("neither its name nor its first lines show a format"),
+            std::string::npos);
+}
+
+TEST_F(ParticleFile, StylesOfLammps) {
+  std::string const head = "c\n\n1 atoms\n1 atom types\n\n";
+  auto const frame = read("a.data", head + "Atoms # dipole\n\n1 1 -0.5 1 2 3 4 5 6\n");
+  EXPECT_EQ(values(frame, "charge"), Numbers{-0.5});
+  EXPECT_EQ(values(frame, "muy"), Numbers{5});
+  // The comment and the scenario may not differ; a comment that is no style does not matter if the scenario says it.
+  EXPECT_NE(message("a.data", head + "Atoms # full\n\n1 1 1 0.5 1 2 3\n", {.style = "sphere"})
+                .find("the file says style full, the scenario sphere"),
+            std::string::npos);
+  EXPECT_EQ(values(read("a.data", head + "Atoms # made by hand\n\n1 1 1 0.5 1 2 3\n", {.style = "full"}), "charge"),
+            Numbers{0.5});
+  for (char const* row : {"1 1 1 1 1 1", "1 1 1 1 1 1 1", "1 1 1 1 1 1 1 1", "1 1 1 1 1 1 1 1 1"})
+    EXPECT_NE(message("a.data", head + "Atoms\n\n" + row + "\n").find("words an atom may be of style"),
+              std::string::npos)
+        << row;
 }
 
 }  // namespace

@@ -33,8 +33,7 @@ class XyzFile : public testing::Test {
 };
 
 TEST_F(XyzFile, Plain) {
-  auto const frame =
-      from_xyz_file(write("3\nwater\nO 0.0 0 0.117 -0.8\nH 0 +0.757 -4.67e-1\r\n  H\t0 -0.757 -0.467\n"));
+  auto const frame = from_xyz_file(write("3\nwater\nO 0.0 0 0.117\nH 0 +0.757 -4.67e-1\r\n  H\t0 -0.757 -0.467\n"));
   EXPECT_EQ(frame.comment, "water");
   EXPECT_EQ(frame.species, (std::vector<std::string>{"O", "H", "H"}));
   ASSERT_EQ(frame.columns.size(), 1U);

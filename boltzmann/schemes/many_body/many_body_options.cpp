@@ -18,7 +18,7 @@ Words<MetalPotential> const& metal_potential_words() {
        {MetalPotential::gupta, "gupta",
         "V = 2 A exp(-p (r/r0 - 1)), rho = xi^2 exp(-2 q (r/r0 - 1)), F = -sqrt(rho) (Cleri and Rosato 1993)"},
        {MetalPotential::formulas, "formulas", "V, rho and F as they are typed"},
-       {MetalPotential::file, "file", "the tables of a file, setfl (eam.alloy) or funcfl"}}};
+       {MetalPotential::file, "file", "the tables of a file: setfl (eam.alloy, eam.fs) or funcfl"}}};
   return all;
 }
 
@@ -41,7 +41,8 @@ OptionTable const& embedded_atom_options() {  // long: a table, a row for each k
     all.add_said("elements", "a table, { atoms = \"Cu\" }", "of a file with several: the element of each ensemble",
                  "the ensemble's name");
     all.add("file", &E::file, path(),
-            "of `\"file\"`, from the scenario's folder: tables in eV and angstrom, setfl (eam.alloy) or funcfl");
+            "of `\"file\"`, from the scenario's folder: tables in eV and angstrom: setfl (eam.alloy, eam.fs) or "
+            "funcfl, also compressed by gzip");
     all.at("file").needed = "\"Cu.eam.alloy\"";
     add("epsilon", &E::sutton_chen, &SuttonChen::epsilon, dimensions::energy,
         "of `\"sutton-chen\"`: the energy of pairs a apart", "\"12.382 meV\"");
