@@ -57,7 +57,7 @@ TEST(Repeated, WhatIsListedTwiceIsRefusedWithBothPlaces) {
 
 TEST(Repeated, AFileNamesItsLines) {
   Case const run("repeated", start + "bonds = { file = \"b.txt\" }\n");
-  write_text(run / "b.txt", "0 1\n# more\n1 2\n1 0\n");
+  test::write_text(run / "b.txt", "0 1\n# more\n1 2\n1 0\n");
   auto const outcome = run.check();
   EXPECT_EQ(outcome.status, 2);
   EXPECT_NE((outcome.out + outcome.err).find("[0, 1] (line 1) and [1, 0] (line 4) are the same"), std::string::npos)

@@ -272,8 +272,6 @@ TEST(RigidBodies, MayLieAcrossTheEndsOfABox) {
 }
 
 TEST(RigidBodies, WhatCannotBeIsOneLine) {
-  Body<3> wrong(tetrahedron);
-  wrong.atoms[4].position = {-1, -1, 1};
   Ensemble<Newton<3>> atoms("m", 3);
   Box const box({-5., -5., -5.}, {5., 5., 5.});
   atoms[1].position = {1, 0, 0}, atoms[2].position = {-1, 0.3, 0};

@@ -112,15 +112,15 @@ Vector<3> solved(SymmetricMatrix const& inertia, bool line, Vector<3> const& b) 
 namespace {
 
 /// Of a line along u with the inertia J: u' with J u x u' = torque, for the torque across it is all there is.
-bool turn_line(Vector<3> const& torque, double inertia, std::span<Vector<3>> arms) {
+bool turn_line(Vector<3> const& torque, double inertia, std::span<Vector<3> const> arms, std::span<Vector<3>> ways) {
   Vector<3> const* longest = &arms[0];
   for (auto const& arm : arms)
     if (dot(arm, arm) > dot(*longest, *longest)) longest = &arm;
   Vector<3> const u = *longest * (1 / magnitude(*longest)), w = cross(torque, u) * (1 / inertia);
   double const square = dot(w, w);
   if (!(square < 1)) return false;
-  Vector<3> const turned = w + u * std::sqrt(1 - square);
-  for (auto& arm : arms) arm = turned * dot(arm, u);
+  Vector<3> const way = w - u * (square / (1 + std::sqrt(1 - square)));  // u' - u
+  for (std::size_t i = 0; i < arms.size(); ++i) ways[i] = way * dot(arms[i], u);
   return true;
 }
 
@@ -153,15 +153,16 @@ std::optional<Vector<3>> half_rotation(SymmetricMatrix const& inertia, Vector<3>
 
 }  // namespace
 
-bool turn_by(Vector<3> const& torque, bool line, std::span<double const> masses, std::span<Vector<3>> arms) {
+bool turn_by(Vector<3> const& torque, bool line, std::span<double const> masses, std::span<Vector<3> const> arms,
+             std::span<Vector<3>> ways) {
   SymmetricMatrix const inertia = inertia_of(arms, masses);
-  if (line) return turn_line(torque, 0.5 * (inertia[0] + inertia[1] + inertia[2]), arms);
+  if (line) return turn_line(torque, 0.5 * (inertia[0] + inertia[1] + inertia[2]), arms, ways);
   auto const p = half_rotation(inertia, torque);
   if (!p) return false;
   double const p0 = std::sqrt(1 - dot(*p, *p));
-  for (auto& arm : arms) {
-    Vector<3> const across = cross(*p, arm) * 2.0;
-    arm += across * p0 + cross(*p, across);
+  for (std::size_t i = 0; i < arms.size(); ++i) {
+    Vector<3> const across = cross(*p, arms[i]) * 2.0;
+    ways[i] = across * p0 + cross(*p, across);
   }
   return true;
 }

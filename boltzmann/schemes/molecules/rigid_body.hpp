@@ -41,8 +41,10 @@ Vector<3> product(SymmetricMatrix const& matrix, Vector<3> const& x);
 /// The x of inertia x = b. Of a line: the x across it.
 Vector<3> solved(SymmetricMatrix const& inertia, bool line, Vector<3> const& b);
 
-/// Turns arms by the rotation E with Sum m q x (E q) = torque. False if there is none below a right angle.
-bool turn_by(Vector<3> const& torque, bool line, std::span<double const> masses, std::span<Vector<3>> arms);
+/// The ways (E - 1) q of arms q under the rotation E with Sum m q x (E q) = torque, small numbers by themselves: what they
+/// lose to rounding is lost to the momentum. False if there is no such rotation below a right angle.
+bool turn_by(Vector<3> const& torque, bool line, std::span<double const> masses, std::span<Vector<3> const> arms,
+             std::span<Vector<3>> ways);
 
 /// Degrees of freedom of a body of two or more particles.
 int freedom_of_body(int dimension, bool line);

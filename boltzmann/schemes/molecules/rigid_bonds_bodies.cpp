@@ -66,12 +66,11 @@ bool RigidBonds::correct_body(Molecule const& body, double dt) {
     mass += m;
   }
   centre *= 1 / mass;
-  Scratch<Vector<3>> turned(body.size);
-  std::copy(arms.begin(), arms.end(), turned.all().begin());
-  if (!turn_by(torque, shapes_[body.shape].line, masses.all(), turned.all())) return false;
+  Scratch<Vector<3>> ways(body.size);
+  if (!turn_by(torque, shapes_[body.shape].line, masses.all(), arms, ways.all())) return false;
   for (std::size_t k = 0; k < body.size; ++k) {
     Member const p = member(member_[body.members + k]);
-    Vector<3> const change = centre + turned.all()[k] - arms[k] - moved.all()[k];
+    Vector<3> const change = centre + ways.all()[k] - moved.all()[k];
     for (std::size_t a = 0; a < D; ++a) p.position[a] += change[a], p.velocity[a] += change[a] * per_time;
   }
   return true;
