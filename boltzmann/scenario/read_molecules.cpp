@@ -18,6 +18,7 @@ template <std::size_t N>
 std::vector<std::array<std::uint32_t, N>> read_file(std::string const& path) {
   auto const file = open_text(path, "file");
   std::vector<std::array<std::uint32_t, N>> all;
+  std::vector<int> lines;
   std::string line;
   for (int number = 1; read_line(*file, line, path); ++number) {
     line = line.substr(0, line.find('#'));
@@ -30,7 +31,10 @@ std::vector<std::array<std::uint32_t, N>> read_file(std::string const& path) {
     if (!good || words >> rest)
       throw Error(fmt::format("{}:{}: {} numbers of particles are needed, not '{}'", path, number, N, line));
     all.push_back(members);
+    lines.push_back(number);
   }
+  refuse_repeated(
+      all, [&](std::size_t k) { return fmt::format("line {}", lines[k]); }, path);
   return all;
 }
 
@@ -51,6 +55,14 @@ std::vector<std::array<std::uint32_t, N>> read_list(Item const& item, char const
     }
     all.push_back(members);
   }
+  catch_errors(reading, item.place, [&] {
+    refuse_repeated(
+        all,
+        [&](std::size_t k) {
+          return fmt::format("line {}:{}", item.elements[k].place.line, item.elements[k].place.column);
+        },
+        key);
+  });
   return all;
 }
 
