@@ -55,7 +55,7 @@ Chains::Chains(std::vector<AnyEnsemble const*> const& available, std::vector<std
     auto const found = std::find(known.begin(), known.end(), name);
     if (found == known.end())
       throw Error(
-          fmt::format("there is no ensemble '{}'; there are {}{}", name, join(known), did_you_mean(name, known)));
+          fmt::format("there is no ensemble '{}'{}", name, choices(name, known)));
     check_chains(*available[static_cast<std::size_t>(found - known.begin())], length);
   }
 }

@@ -128,7 +128,7 @@ std::vector<double> const& CsvTable::column(std::string_view name) const {
   for (std::size_t k = 0; k < header.size(); ++k)
     if (header[k] == name) return columns[k];
   throw Error(
-      fmt::format("there is no column '{}'; there are {}{}", name, some_of(header), did_you_mean(name, header)));
+      fmt::format("there is no column '{}'{}", name, choices(name, header)));
 }
 
 void write_csv(std::string const& path, CsvTable const& table) {

@@ -87,8 +87,8 @@ class DataReader {
       if (style.name == name) return style;
       names.emplace_back(style.name);
     }
-    throw error(fmt::format("atom style '{}' can't be read; those that can are {}{}", boltzmann::quoted(name),
-                            join(names), did_you_mean(name, names)));
+    throw error(fmt::format("atom style '{}' can't be read{}", boltzmann::quoted(name),
+                            choices(name, names, "those that can are")));
   }
 
   void read_header() {

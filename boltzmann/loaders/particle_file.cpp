@@ -29,7 +29,7 @@ ParticleFileFormat const& format_of(std::string const& path, std::string const& 
     for (auto const& format : formats)
       if (format.name == name) return format;
     auto const names = particle_file_names();
-    throw Error(fmt::format("there is no format '{}'; there are {}{}", name, join(names), did_you_mean(name, names)));
+    throw Error(fmt::format("there is no format '{}'{}", name, choices(name, names)));
   }
   std::filesystem::path const file(path);
   std::string const suffix = file.extension().string(), whole = file.filename().string();

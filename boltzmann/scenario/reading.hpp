@@ -249,10 +249,14 @@ std::optional<LaplaceLaw> read_field_law(Section& section, OptionTable const& ke
 /// The keys that this leaves.
 OptionTable keys_but_of_the_law(OptionTable const& all);
 void read_ensembles(Section& document, Reading& reading);
+/// Places particles anew, at a distance from others that are there.
+using PlaceAgain = std::function<void(AnyEnsemble& particles, Box const& now, std::vector<AnyEnsemble const*> others,
+                                      double distance)>;
 /// Particles for an ensemble that there is, made as `table` says (the key `add` of an event), and where it says nothing as
 /// the ensemble's own does. Random numbers are those of an ensemble of this `name`. Null, and mistakes, if it is wrong.
+/// `again` becomes how they are placed at a distance from others.
 std::shared_ptr<AnyEnsemble const> read_addition(Item const& table, ReadEnsemble const& to, std::string const& name,
-                                                 Reading& reading);
+                                                 Reading& reading, PlaceAgain& again);
 /// What an ensemble of this class is made of. Nothing, and mistakes, if it is missing or wrong.
 std::optional<BoundMaterial> read_material(Section& ensemble, ParticleClass const& kind, Reading& reading);
 /// Whether particles of this class have an internal energy of their own (the field "internal_energy").

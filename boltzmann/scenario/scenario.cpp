@@ -182,7 +182,7 @@ std::unique_ptr<ScenarioSimulation> parse(std::string const& text, std::string c
   } catch (std::bad_alloc const&) {
     throw Error(fmt::format("{}: the scenario needs more memory than this machine has", file));
   }
-  if (!mistakes.none()) throw ScenarioErrors(mistakes.lines(), notes.absent());
+  if (!mistakes.none()) throw ScenarioErrors(mistakes.lines(), notes.absent(), notes.parameters());
   if (reading.result->sweep) reading.result->sweep->text = sweep;
   reading.result->resolved = write_document(document);
   reading.result->parameters = notes.parameters();
@@ -242,8 +242,9 @@ void add_diagnosis(std::unique_ptr<ScenarioSimulation>& scenario, ScenarioText c
   throw ScenarioErrors(mistakes.lines());
 }
 
-ScenarioErrors::ScenarioErrors(std::vector<std::string> all, std::vector<ScenarioParameter> keys)
-    : Error(all_lines(all)), lines(std::move(all)), absent(std::move(keys)) {}
+ScenarioErrors::ScenarioErrors(std::vector<std::string> all, std::vector<ScenarioParameter> keys,
+                               std::vector<ScenarioParameter> read)
+    : Error(all_lines(all)), lines(std::move(all)), parameters(std::move(read)), absent(std::move(keys)) {}
 
 ScenarioText read_scenario(std::string const& path) {
   namespace fs = std::filesystem;

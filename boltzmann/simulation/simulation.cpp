@@ -258,6 +258,41 @@ void Simulation::update_derived_fields() const {
   for (auto* dissipation : dissipations_) dissipation->update_derived_fields();
 }
 
+bool Simulation::derives(AnyEnsemble const& ensemble, Field const& field) const {
+  auto const by = [&](auto const* one) { return one->derives(ensemble, field); };
+  return std::any_of(schemes_.begin(), schemes_.end(), by) ||
+         std::any_of(dissipations_.begin(), dissipations_.end(), by);
+}
+
+void Simulation::refresh() {
+  if (running_) return refresh_in_run();
+  if (!checked_) {
+    make_ready();
+  } else {
+    if (influences_.kept() && influences_.hold_for(dependence(true))) return;
+    take_particles();
+    calculate(time());
+  }
+  check_influences();
+  update_derived_fields();
+  influences_.keep(dependence(true));
+}
+
+/// From an observer, or from an adaptation that may have changed rows.
+void Simulation::refresh_in_run() {
+  bool const changed = rows_before_change_ && checksum() != *rows_before_change_;
+  if (!changed && influences_.hold()) return;
+  if (is_divided())
+    throw Error("influences are not up to date here, in a run that is divided over ranks; read them in an observer");
+  store_rows();
+  if (changed) take_particles();
+  influences_.outdated();
+  calculate(time());
+  if (whole_.steps) influences_.outdated();  // whole steps do not keep it
+  update_derived_fields();
+  if (rows_before_change_) rows_before_change_ = checksum();
+}
+
 void Simulation::take_lengths() {
   for (auto& part : parts_) {
     double scale = std::numeric_limits<double>::infinity();
@@ -270,6 +305,7 @@ void Simulation::take_lengths() {
 void Simulation::accept_particles() {
   for (auto* scheme : schemes_)
     for (auto* ensemble : scheme->ensembles()) {
+      check_masses(*ensemble);
       scheme->box().check(*ensemble);
       scheme->box().wrap(*ensemble);
     }
@@ -292,8 +328,10 @@ void Simulation::adapt_now() {
     changed = true;
     auto const before = checksum();
     auto const sizes_before = sizes();
+    rows_before_change_ = before;
     try {
       change.adaptation->change();
+      rows_before_change_.reset();
       auto const sizes_now = sizes();
       for (std::size_t k = 0; k < parts_.size(); ++k)
         if (sizes_now[k] != sizes_before[k] && !parts_[k].integrator->same_for_all())
@@ -438,21 +476,27 @@ void Simulation::begin() {
   equilibrate_now();  // also for no steps: what is stored of them is where another run goes on
   establish_flow();
   begun_ = true;
-  if (influences_.of_others() && observation_due()) calculate(time());
+  if (observation_due()) {
+    if (checksum(false) != checked_rows_) influences_.outdated();
+    calculate(time());
+  }
   observe_now();
 }
 
 void Simulation::run(std::uint64_t steps, int direction) {
-  std::atomic_ref(pause_).store(false, std::memory_order_relaxed);
-  check();
   struct Running {
-    explicit Running(Simulation& of) : simulation(of) { simulation.running_ = true; }
+    explicit Running(Simulation& of) : simulation(of) {}
     ~Running() {
       simulation.running_ = false;
+      simulation.rows_before_change_.reset();
+      simulation.clear_pause();
       simulation.drop_forgotten();
     }
     Simulation& simulation;
   } const running_now(*this);
+  check();
+  for (auto const* ensemble : ensembles_) check_masses(*ensemble);
+  running_ = true;
   if (direction < 0) refuse_backwards();
   RunVotes votes(steps);
   votes.begin(
@@ -486,6 +530,7 @@ void Simulation::run(std::uint64_t steps, int direction) {
     done.divided = is_divided();
   }
   if (votes.stopped()) stop();
+  if (steps == 0) calculate(time());
   complete_last_step(whole, last);
   influences_.end_run([&] { return dependence(true); });
   if (whole) whole_.are_for = of_whole_steps(dependence(false), division);
@@ -513,8 +558,8 @@ bool Simulation::take_step(int direction, FusedSteps* whole, bool last) {
   if (!observations_.empty()) {
     if (whole && observation_due())
       whole->store(time());
-    else if ((last || influences_.of_others()) && observation_due())
-      calculate(time());  // what the next step would begin with all the same
+    else if (observation_due())
+      calculate(time());  // unless they hold: what the next step would begin with all the same
     observe_now();
   }
   for (auto const& one : progress_)

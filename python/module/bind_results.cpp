@@ -104,6 +104,7 @@ py::tuple sweep(Source const& source, std::vector<std::string> const& set, std::
   options.force = force;
   options.attend = [](Simulation& simulation) { Core::watch_signals(simulation); };
   SweepReport report;
+  Core::Sweeping const sweeping;
   {
     py::gil_scoped_release const others;
     auto scenario = load_scenario(options.text, options.overrides);
@@ -148,6 +149,7 @@ void bind_results(py::module_& module) {
         stored.write_all(out, words, figure(1200, 900, scale, dark));
       });
   module.def("sweep", sweep);
+  module.def("end_sweeps", &Core::end_sweeps);
 }
 
 }  // namespace boltzmann::python
