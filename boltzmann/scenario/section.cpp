@@ -33,6 +33,14 @@ bool same_but_for_capitals(std::string const& key, std::vector<std::string> cons
 
 }  // namespace
 
+/// A word that is only written with other capitals, one with a similar name, or what another program's word is here.
+std::string hint_for(std::string const& word, std::vector<std::string> const& allowed) {
+  std::string const near = did_you_mean(word, allowed);
+  if (near.starts_with("; it is ") || same_but_for_capitals(word, allowed)) return near;
+  auto const term = foreign_term(word);
+  return term.empty() ? near : "; " + term;
+}
+
 std::vector<std::string> axis_names(int dimension) {
   std::vector<std::string> names{"x", "y", "z"};
   if (dimension > 0) names.resize(static_cast<std::size_t>(dimension));
@@ -141,7 +149,7 @@ std::optional<std::string> read_word(Item const& item, std::string_view name, st
   if (context.notes) context.notes->word(item, words);
   if (std::find(words.begin(), words.end(), *text) != words.end()) return text;
   context.mistakes.add(item.place,
-                       fmt::format("unknown {} '{}'{}", name, *text, choices(*text, words)));
+                       fmt::format("unknown {} '{}'{}", name, *text, choices_with(hint_for(*text, words), words)));
   return std::nullopt;
 }
 
@@ -262,14 +270,6 @@ std::string rather_in(std::string const& key, std::string const& title) {
   return places.empty() || places.size() > 4 ? "" : "; it is a key of " + join(places);
 }
 
-/// A key that is only written with other capitals, one with a similar name, what another program's word is here, or the
-/// tables that have the key.
-std::string hint_for(std::string const& key, std::vector<std::string> const& allowed, std::string const& title) {
-  std::string const near = did_you_mean(key, allowed);
-  if (near.starts_with("; it is ") || same_but_for_capitals(key, allowed)) return near;
-  if (auto const term = foreign_term(key); !term.empty()) return "; " + term;
-  return near.empty() ? rather_in(key, title) : near;
-}
 
 /// "bzm show run" of [run].
 std::string where_told(std::string const& title) {
@@ -289,10 +289,11 @@ void Section::finish() {
       context_.notes->key(table_, told, context_.units);
   for (auto const& entry : table_.entries) {
     if (in(allowed_, entry.key) || in(known_, entry.key)) continue;
+    std::string const near = hint_for(entry.key, allowed_);
     mistake(entry.place, fmt::format("unknown {} '{}' in {}{}", entry.item.is(Item::Kind::table) ? "table" : "key",
                                      entry.key, title_,
-                                     choices_with(hint_for(entry.key, allowed_, title_), allowed_, "allowed are",
-                                                  where_told(title_))));
+                                     choices_with(near.empty() ? rather_in(entry.key, title_) : near, allowed_,
+                                                  "allowed are", where_told(title_))));
   }
 }
 

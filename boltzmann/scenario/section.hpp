@@ -29,6 +29,10 @@ struct ReadContext {
   bool plain_as_shown = false;  ///< numbers without a unit are in the units that pictures show, not in the base's
 };
 
+/// What a message about an unknown word goes on with: "; did you mean 'x'?", or what another program's word is here; empty
+/// if nothing is known.
+std::string hint_for(std::string const& word, std::vector<std::string> const& allowed);
+
 /// A finite number in the base from 0.5 or "0.5 ps"; a mistake otherwise. `name` is the key.
 std::optional<double> read_quantity(Item const& item, std::string_view name, Dimension dimension, ReadContext& context,
                                     NumberRange range = any_number);

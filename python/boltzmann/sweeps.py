@@ -110,7 +110,7 @@ def sweep(
         folder = os.fspath(out)
     try:
         failed, interrupted = _core.sweep(
-            sim._source(sim._document), assignments, varied, seeds, threads, folder, overwrite, quiet
+            sim._source(sim._document), assignments, varied, seeds, threads, folder, overwrite, quiet, out is not None
         )
     except ScenarioErrors as errors:
         located = sim._document.located(errors, place)

@@ -92,7 +92,7 @@ std::unique_ptr<Canvas> curves(std::vector<std::tuple<std::string, py::buffer, p
 
 py::tuple sweep(Source const& source, std::vector<std::string> const& set, std::vector<std::string> const& vary,
                 std::optional<std::int64_t> seeds, std::optional<int> threads, std::string const& folder, bool force,
-                bool quiet) {
+                bool quiet, bool lasting) {
   SweepOptions options;
   options.text = {source.text, source.file, source.name, source.folder};
   options.overrides.set = set;
@@ -102,6 +102,7 @@ py::tuple sweep(Source const& source, std::vector<std::string> const& set, std::
   options.folder = folder;
   options.quiet = quiet;
   options.force = force;
+  options.lasting = lasting;
   options.attend = [](Simulation& simulation) { Core::watch_signals(simulation); };
   SweepReport report;
   Core::Sweeping const sweeping;
