@@ -96,7 +96,8 @@ std::vector<std::string> hints(std::string const& messages) {
   }
   std::vector<std::string> all;
   for (auto const& name : called)
-    all.push_back(fmt::format("in a law write {0} without std:: (a law is compiled for several particles at once)", name));
+    all.push_back(
+        fmt::format("in a law write {0} without std:: (a law is compiled for several particles at once)", name));
   for (auto const* ours : {select_hint, interaction_hint})
     if (messages.find(ours) != std::string::npos) all.emplace_back(ours);
   return all;

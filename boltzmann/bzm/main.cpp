@@ -111,10 +111,9 @@ std::string explain(CLI::App const& app, CLI::ParseError const& error, int argc,
     std::string const word = argv[i];
     std::string const name = word.substr(0, word.find('='));
     if (name.starts_with("--") && name.size() > 2 && std::find(known.begin(), known.end(), name) == known.end())
-      return fmt::format(
-          "unknown option '{}'{}{}", name, command ? " of bzm " + command->get_name() : "",
-          choices(name, known, command ? "it has" : "bzm has",
-                  command ? "bzm " + command->get_name() + " --help" : std::string("bzm --help")));
+      return fmt::format("unknown option '{}'{}{}", name, command ? " of bzm " + command->get_name() : "",
+                         choices(name, known, command ? "it has" : "bzm has",
+                                 command ? "bzm " + command->get_name() + " --help" : std::string("bzm --help")));
   }
   std::string text = error.what();
   std::replace(text.begin(), text.end(), '\n', ' ');

@@ -13,13 +13,15 @@ std::string small_letters(std::string_view text) {
   return small;
 }
 
-constexpr std::array kinds{"fix ",        "compute ",     "pair_style ",     "bond_style ",  "angle_style ",
-                           "pair ",       "kspace_style ", "dihedral_style ", "dump ",        "units ",
-                           "atom_style ", "min_style ",   "boundary ",       "run_style ",   "integrator ",
-                           "hybrid ",     "command ",     "lammps ",         "gromacs ",     "hoomd.",
-                           "md.",         "pair.",        "methods.",        "openmm.",      "rebound.",
-                           "reb_",        "pysph.",       "sph.",            "picmi.",       "warpx.",
-                           "algo.",       "thermostats.", "bond.",           "angle.",       "external."};
+constexpr std::array kinds{"fix ",         "compute ",   "pair_style ",   "bond_style ",
+                           "angle_style ", "pair ",      "kspace_style ", "dihedral_style ",
+                           "dump ",        "units ",     "atom_style ",   "min_style ",
+                           "boundary ",    "run_style ", "integrator ",   "hybrid ",
+                           "command ",     "lammps ",    "gromacs ",      "hoomd.",
+                           "md.",          "pair.",      "methods.",      "openmm.",
+                           "rebound.",     "reb_",       "pysph.",        "sph.",
+                           "picmi.",       "warpx.",     "algo.",         "thermostats.",
+                           "bond.",        "angle.",     "external."};
 
 std::string find_term(std::string_view small) {
   for (auto const& [words, answer] : foreign_terms)

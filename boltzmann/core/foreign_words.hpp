@@ -66,8 +66,10 @@ inline constexpr std::array foreign_terms{
                 "loaders"},
     ForeignTerm{"velocity create|gen_vel|gen_temp|thermalize_particle_momenta",
                 "velocities of a temperature are `temperature` of [[ensembles]]"},
-    ForeignTerm{"minimize|min_style|emtol|steep|fire|energy_minimization", "energies are minimised by the table [minimise]"},
-    ForeignTerm{"neighbor|neigh_modify|nstlist|rlist|r_buff", "lists are kept for you; `skin` of [run] is their margin"},
+    ForeignTerm{"minimize|min_style|emtol|steep|fire|energy_minimization",
+                "energies are minimised by the table [minimise]"},
+    ForeignTerm{"neighbor|neigh_modify|nstlist|rlist|r_buff",
+                "lists are kept for you; `skin` of [run] is their margin"},
     ForeignTerm{"run_style|respa|r-respa|mts", "slow laws have `every` of [[influences]]"},
     ForeignTerm{"thermo_style|thermo_modify|nstenergy|logger|statedatareporter",
                 "what is measured are tables [[diagnoses]], written every `diagnoses` steps of [output]"},
@@ -77,10 +79,12 @@ inline constexpr std::array foreign_terms{
                 "values are tables [[diagnoses]] of kind \"formula\", \"average\" or \"mean-profile\""},
     ForeignTerm{"stress/atom|heat/flux", "the pressure tensor is the diagnosis pressure, heat is heat-flux"},
     // ---- smooth particles and plasmas ----
-    ForeignTerm{"wcsph|tait|tait-eos|gsph|crksph|tvf|edac|iisph|artificial_viscosity|alpha_av|balsara|cubicspline|quinticspline|"
-                "wendlandquintic|smoothing_length|h_sml|kernel|hdx",
-                "a continuum is the table [smooth], with `weight` and `viscosity`, and a `material` in each ensemble of "
-                "class Smooth or Solid"},
+    ForeignTerm{
+        "wcsph|tait|tait-eos|gsph|crksph|tvf|edac|iisph|artificial_viscosity|alpha_av|balsara|cubicspline|"
+        "quinticspline|"
+        "wendlandquintic|smoothing_length|h_sml|kernel|hdx",
+        "a continuum is the table [smooth], with `weight` and `viscosity`, and a `material` in each ensemble of "
+        "class Smooth or Solid"},
     ForeignTerm{"cells_per_dimension|n_cell|number_of_cells|particle_shape|shape_factor|deposition|poisson|"
                 "electrostatic|multigrid",
                 "fields on a mesh are the table [mesh] with cells and assignment"},
@@ -91,9 +95,10 @@ inline constexpr std::array foreign_terms{
                 "quip|gap|nequip|allegro|mace|gayberne|gay_berne|alj|eff",
                 "Boltzmann does not have it; metals are [embedded_atoms], silicon is [stillinger_weber], and laws of "
                 "pairs can be typed"},
-    ForeignTerm{"maxwell|yee|pml|electromagnetic|fdtd|ckc|laser|antenna|psatd|esirkepov|mcc|ionization|dsmc|"
-                "collisions|boosted_frame",
-                "Boltzmann does not have it; fields on a mesh are electrostatic, and particles do not collide by chance"},
+    ForeignTerm{
+        "maxwell|yee|pml|electromagnetic|fdtd|ckc|laser|antenna|psatd|esirkepov|mcc|ionization|dsmc|"
+        "collisions|boosted_frame",
+        "Boltzmann does not have it; fields on a mesh are electrostatic, and particles do not collide by chance"},
     ForeignTerm{"whfast|saba|mercurius|trace|wisdom-holman|mercury|leapfrog_symba|eos_rebound",
                 "Boltzmann does not have it; integrators for planets are gauss-radau, symplectic-4 and leap-frog; bzm "
                 "list integrators"},

@@ -79,13 +79,15 @@ std::string compound_name(Dimension d) {
   using namespace dimensions;
   for (int const exponent : {d.length, d.mass, d.time, d.temperature, d.charge})
     if (exponent < -50 || exponent > 50) return "";
-  static constexpr Dimension first[] = {energy, force, mass, velocity, momentum, charge, length, time, temperature, power},
-                             second[] = {length, time, mass, velocity, energy, charge, temperature, force, area, volume,
-                                         acceleration};
+  static constexpr Dimension first[] = {energy, force,  mass, velocity,    momentum,
+                                        charge, length, time, temperature, power},
+                             second[] = {length,      time,  mass, velocity, energy,      charge,
+                                         temperature, force, area, volume,   acceleration};
   for (Dimension const a : first)
     for (Dimension const b : second)
-      if (a * b == d) return a == b ? simple_name(a) + std::string(" squared")
-                                    : simple_name(a) + std::string(" times ") + with_article(simple_name(b));
+      if (a * b == d)
+        return a == b ? simple_name(a) + std::string(" squared")
+                      : simple_name(a) + std::string(" times ") + with_article(simple_name(b));
   for (Dimension const a : first)
     for (Dimension const b : second)
       if (a / b == d) return simple_name(a) + std::string(" per ") + simple_name(b);

@@ -214,8 +214,8 @@ TrajectoryReader::StoredField const& TrajectoryReader::find(StoredEnsemble const
     if (field.name == name) return field;
     names.push_back(field.name);
   }
-  throw Error(fmt::format("{}: its ensemble '{}' has no field '{}'{}", state_->file->path(), ensemble.name,
-                          name, choices(name, names, "it has")));
+  throw Error(fmt::format("{}: its ensemble '{}' has no field '{}'{}", state_->file->path(), ensemble.name, name,
+                          choices(name, names, "it has")));
 }
 
 std::uint64_t TrajectoryReader::checksum(std::size_t frames) const {

@@ -1,6 +1,6 @@
 // Records of pages.
-#include <boltzmann/files/disk_sync.hpp>
 #include <boltzmann/files/checksum.hpp>
+#include <boltzmann/files/disk_sync.hpp>
 #include <boltzmann/files/text_file.hpp>
 #include <boltzmann/files/undo_log.hpp>
 

@@ -383,9 +383,9 @@ class Reader {
       auto known = formula_functions();
       if (names_.sums)
         for (auto const& one : sums_only) known.emplace_back(one.name);
-      throw FormulaError(begin, value_of(found) ? fmt::format("'{}' is no function; products need a '*'", quoted(found))
-                                                : fmt::format("unknown function '{}'{}", quoted(found),
-                                                              choices(found, known)));
+      throw FormulaError(begin, value_of(found)
+                                    ? fmt::format("'{}' is no function; products need a '*'", quoted(found))
+                                    : fmt::format("unknown function '{}'{}", quoted(found), choices(found, known)));
     }
     if (auto const value = value_of(found)) return *value;
     if (function) throw FormulaError(begin, fmt::format("the function '{}' needs parentheses: {}(...)", found, found));

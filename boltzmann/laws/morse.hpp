@@ -28,7 +28,7 @@ struct Morse {
         ParameterOf{&Morse::depth, also({"depth", dimensions::energy, "depth of the well", not_negative}, "D")},
         ParameterOf{&Morse::r0, {"r0", dimensions::length, "distance of the minimum", positive}},
         ParameterOf{&Morse::a, also({"a", dimensions::wave_number, "steepness: 1/a is the width of the well", positive},
-                                        "alpha")}};
+                                    "alpha")}};
   }
 
   template <class P, class Q>

@@ -89,10 +89,11 @@ std::deque<PlacedParticles> placed_before(Box const& box, RandomLoadOptions cons
 }
 
 [[noreturn]] void refuse_occupied(AnyEnsemble const& ensemble, double distance, std::size_t i) {
-  throw Error(fmt::format(
-      "random load: in {} draws no place was found for particle {} of {} at a distance of {} from the particles that are "
-      "there; take a smaller distance or fewer particles",
-      longest_search, i, ensemble.size(), distance));
+  throw Error(
+      fmt::format("random load: in {} draws no place was found for particle {} of {} at a distance of {} from the "
+                  "particles that are "
+                  "there; take a smaller distance or fewer particles",
+                  longest_search, i, ensemble.size(), distance));
 }
 
 }  // namespace

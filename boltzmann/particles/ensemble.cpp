@@ -66,8 +66,8 @@ Field const& AnyEnsemble::field(std::string_view name) const {
   }
   std::string hint = did_you_mean(name, names);
   if (hint.empty() && named < doubles_) hint = "; its class holds more, which its fields() does not name";
-  throw Error("ensemble '" + name_ + "' of class " + class_name_ + " has no field '" + std::string(name) +
-              "'" + choices_with(hint, names, "it has"));
+  throw Error("ensemble '" + name_ + "' of class " + class_name_ + " has no field '" + std::string(name) + "'" +
+              choices_with(hint, names, "it has"));
 }
 
 std::vector<double> AnyEnsemble::column(Field const& field, int component) const {
@@ -81,8 +81,8 @@ void check_masses(AnyEnsemble const& ensemble) {
   if (!mass) return;
   for (std::size_t i = 0; i < ensemble.size(); ++i)
     if (double const of = ensemble.row(i)[mass->offset]; !(of > 0))
-      throw Error(fmt::format("mass: {} of particle {} of '{}' is out of range; it must be positive", of, i,
-                              ensemble.name()));
+      throw Error(
+          fmt::format("mass: {} of particle {} of '{}' is out of range; it must be positive", of, i, ensemble.name()));
 }
 
 }  // namespace boltzmann

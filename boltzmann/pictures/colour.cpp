@@ -142,8 +142,7 @@ Colour colour_named(std::string_view name) {
   auto is_digit = [](char c) { return std::isxdigit(static_cast<unsigned char>(c)) != 0; };
   if (name.size() == 7 && name[0] == '#' && std::all_of(name.begin() + 1, name.end(), is_digit))
     return hex(static_cast<unsigned>(std::stoul(std::string(name.substr(1)), nullptr, 16)));
-  throw Error("unknown colour '" + std::string(name) + "'" +
-              choices(name, colour_names(), "allowed are #rrggbb and"));
+  throw Error("unknown colour '" + std::string(name) + "'" + choices(name, colour_names(), "allowed are #rrggbb and"));
 }
 
 std::span<std::string const> colour_names() {

@@ -204,7 +204,8 @@ std::vector<std::string> const& drawing_names() {
 Drawing const& drawing_named(std::string_view name) {
   for (auto const& drawing : drawings())
     if (drawing.name == name) return drawing;
-  throw Error(fmt::format("unknown drawing '{}'{}", name, choices(name, drawing_names(), "there are", "bzm list drawings")));
+  throw Error(
+      fmt::format("unknown drawing '{}'{}", name, choices(name, drawing_names(), "there are", "bzm list drawings")));
 }
 
 }  // namespace boltzmann

@@ -135,8 +135,7 @@ Canvas draw_phase_space(Scene& scene, std::string x, std::string y) {
   options.origin[0] = origin_of(scene, x, sources, 0);
   options.origin[1] = origin_of(scene, y, sources, 1);
   ParticleClouds clouds = particle_clouds(sources, options);
-  Canvas canvas =
-      boltzmann::draw_phase_space(std::move(clouds.clouds), x_axis, y_axis, scene.title());
+  Canvas canvas = boltzmann::draw_phase_space(std::move(clouds.clouds), x_axis, y_axis, scene.title());
   canvas.equal_aspect(x.starts_with("position") && y.starts_with("position"));
   if (!colour.empty()) explain_values(canvas, scene, clouds);
   note_shown(canvas, clouds, !options.region.empty());

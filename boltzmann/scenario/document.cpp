@@ -393,8 +393,8 @@ void assign(Item& document, std::string const& path, Item value, Place const& pl
           Entry const* name = at->elements[i].find("name");
           names.push_back(name && name->item.is(Item::Kind::text) ? name->item.text : std::to_string(i));
         }
-        return mistakes.add(place, fmt::format("there is no '{}' in {}{}", step, so_far,
-                                               choices(step, names, "it has")));
+        return mistakes.add(place,
+                            fmt::format("there is no '{}' in {}{}", step, so_far, choices(step, names, "it has")));
       }
     } else {
       return mistakes.add(place, fmt::format("{} is {}: it has no '{}'", so_far, describe(*at), step));

@@ -51,19 +51,39 @@ int lines_that_begin(std::string_view text, std::string_view with) {
 }
 
 constexpr std::array<std::string_view, 34> lammps_commands{
-    "units",       "atom_style", "pair_style",   "pair_coeff", "fix",     "compute",   "thermo",       "thermo_style",
-    "run",         "boundary",   "lattice",      "region",     "create_box", "create_atoms", "read_data", "timestep",
-    "dump",        "neighbor",   "neigh_modify", "mass",       "velocity", "variable",  "minimize",     "bond_style",
-    "angle_style", "dimension",  "kspace_style", "group",      "unfix",   "dump_modify", "reset_timestep", "special_bonds",
-    "read_restart", "newton"};
-constexpr std::array<std::string_view, 24> mdp_keys{
-    "integrator", "nsteps",      "nstxout",  "nstvout",     "nstlog",     "nstenergy", "rlist",       "rcoulomb",
-    "rvdw",       "coulombtype", "vdwtype",  "tcoupl",      "tc-grps",    "tc_grps",   "tau_t",       "ref_t",
-    "pcoupl",     "gen_vel",     "gen-vel",  "constraints", "pbc",        "emtol",     "nstxout-compressed", "cutoff-scheme"};
+    "units",        "atom_style",  "pair_style",     "pair_coeff",    "fix",          "compute",      "thermo",
+    "thermo_style", "run",         "boundary",       "lattice",       "region",       "create_box",   "create_atoms",
+    "read_data",    "timestep",    "dump",           "neighbor",      "neigh_modify", "mass",         "velocity",
+    "variable",     "minimize",    "bond_style",     "angle_style",   "dimension",    "kspace_style", "group",
+    "unfix",        "dump_modify", "reset_timestep", "special_bonds", "read_restart", "newton"};
+constexpr std::array<std::string_view, 24> mdp_keys{"integrator",
+                                                    "nsteps",
+                                                    "nstxout",
+                                                    "nstvout",
+                                                    "nstlog",
+                                                    "nstenergy",
+                                                    "rlist",
+                                                    "rcoulomb",
+                                                    "rvdw",
+                                                    "coulombtype",
+                                                    "vdwtype",
+                                                    "tcoupl",
+                                                    "tc-grps",
+                                                    "tc_grps",
+                                                    "tau_t",
+                                                    "ref_t",
+                                                    "pcoupl",
+                                                    "gen_vel",
+                                                    "gen-vel",
+                                                    "constraints",
+                                                    "pbc",
+                                                    "emtol",
+                                                    "nstxout-compressed",
+                                                    "cutoff-scheme"};
 constexpr std::array<std::string_view, 5> pdb_records{"ATOM", "HETATM", "CRYST1", "REMARK", "HEADER"};
 constexpr std::array<std::string_view, 8> warpx_keys{
-    "amr.n_cell",     "amr.max_level",        "geometry.dims",      "geometry.prob_lo",
-    "max_step",       "particles.species_names", "algo.particle_shape", "boundary.field_lo"};
+    "amr.n_cell", "amr.max_level",           "geometry.dims",       "geometry.prob_lo",
+    "max_step",   "particles.species_names", "algo.particle_shape", "boundary.field_lo"};
 
 struct Beginning {
   std::string_view bytes, what;
@@ -71,7 +91,9 @@ struct Beginning {
 constexpr std::array beginnings{Beginning{"\x89HDF", "an HDF5 file"},
                                 Beginning{"\x1f\x8b", "a gzip file"},
                                 Beginning{"PK\x03\x04", "a zip file"},
-                                Beginning{"\x7f""ELF", "a program"},
+                                Beginning{"\x7f"
+                                          "ELF",
+                                          "a program"},
                                 Beginning{"\x89PNG", "a picture"},
                                 Beginning{"%PDF", "a PDF"},
                                 Beginning{"<?xml", "an XML file"},
@@ -79,10 +101,11 @@ constexpr std::array beginnings{Beginning{"\x89HDF", "an HDF5 file"},
 struct Module {
   std::string_view name, program;
 };
-constexpr std::array modules{Module{"hoomd", "HOOMD-blue"},  Module{"rebound", "REBOUND"}, Module{"openmm", "OpenMM"},
-                             Module{"simtk", "OpenMM"},      Module{"pysph", "PySPH"},     Module{"pywarpx", "WarpX"},
-                             Module{"ase", "ASE"},           Module{"lammps", "LAMMPS"},   Module{"espressomd", "ESPResSo"},
-                             Module{"amuse", "AMUSE"},       Module{"boltzmann", "Boltzmann"}};
+constexpr std::array modules{
+    Module{"hoomd", "HOOMD-blue"}, Module{"rebound", "REBOUND"},    Module{"openmm", "OpenMM"},
+    Module{"simtk", "OpenMM"},     Module{"pysph", "PySPH"},        Module{"pywarpx", "WarpX"},
+    Module{"ase", "ASE"},          Module{"lammps", "LAMMPS"},      Module{"espressomd", "ESPResSo"},
+    Module{"amuse", "AMUSE"},      Module{"boltzmann", "Boltzmann"}};
 
 constexpr char const* begin_anew = "no scenario; bzm new NAME.toml writes one to begin with";
 
@@ -145,7 +168,9 @@ std::string foreign_input(std::string_view text) {
            "in a scenario";
   if (auto python = python_program(text); !python.empty()) return python;
   if (lines_of(text, mdp_keys, true) >= 2) return fmt::format("this is a GROMACS .mdp file, {}", begin_anew);
-  if (lines_that_begin(text, "[ moleculetype ]") + lines_that_begin(text, "[ system ]") + lines_that_begin(text, "#include") > 0)
+  if (lines_that_begin(text, "[ moleculetype ]") + lines_that_begin(text, "[ system ]") +
+          lines_that_begin(text, "#include") >
+      0)
     return fmt::format("this is a GROMACS topology, {}", begin_anew);
   if (lines_of(text, pdb_records, false) >= 2) return loaded_by("a PDB file");
   if (lines_of(text, warpx_keys, true) >= 2) return fmt::format("this is a WarpX input, {}", begin_anew);

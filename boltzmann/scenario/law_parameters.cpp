@@ -35,8 +35,8 @@ std::string example_of(Parameter const& parameter, bool is_vector, int space, Un
   auto const away = [&](std::string const& unit) {
     return std::abs(std::log(base.from_si(parse_quantity("1 " + unit).si, dimension)));
   };
-  auto const nearest = std::min_element(units.begin(), units.end(),
-                                        [&](auto const& a, auto const& b) { return away(a) < away(b); });
+  auto const nearest =
+      std::min_element(units.begin(), units.end(), [&](auto const& a, auto const& b) { return away(a) < away(b); });
   return fmt::format("\"{} {}\"", number, *nearest);
 }
 
@@ -77,10 +77,9 @@ OptionTable options_of(std::vector<Parameter> const& parameters) {
     other.key = parameter.also;
     other.needed = "";
     other.otherwise = "";
-    other.doc = fmt::format("instead of `{0}`{1}", parameter.name,
-                            parameter.also_times == 1
-                                ? ""
-                                : fmt::format(", which is {:.7g} {}", parameter.also_times, parameter.also));
+    other.doc = fmt::format(
+        "instead of `{0}`{1}", parameter.name,
+        parameter.also_times == 1 ? "" : fmt::format(", which is {:.7g} {}", parameter.also_times, parameter.also));
     all.add(other);
   }
   return all;
@@ -112,10 +111,9 @@ std::optional<ParameterValues> read_parameters(Section& section, std::string_vie
     section.explain(option_of(parameter), shown ? std::string(parameter.default_text) : "",
                     space == 0 && parameter.dimension.by_space != 0 ? std::nullopt : std::optional(dimension));
     if (!item && !has_default(parameter, units.is_reduced())) {
-      reading.mistake(section.place(),
-                      fmt::format("{} needs '{}'{}, {}; add e.g. {} = {}", owner, name,
-                                  also.empty() ? "" : " (or '" + also + "')", parameter.doc, name,
-                                  example_of(parameter, is_vector, space == 0 ? 3 : space, units)));
+      reading.mistake(section.place(), fmt::format("{} needs '{}'{}, {}; add e.g. {} = {}", owner, name,
+                                                   also.empty() ? "" : " (or '" + also + "')", parameter.doc, name,
+                                                   example_of(parameter, is_vector, space == 0 ? 3 : space, units)));
     } else if (!item) {
       values.push_back(
           {name, std::vector<double>(is_vector ? static_cast<std::size_t>(std::max(space, 1)) : 1,

@@ -97,8 +97,7 @@ ReadEnsemble* Reading::ensemble(Item const& word, std::string_view key) {
   // One whose own name could not be read may be the one that is meant.
   for (auto const& e : ensembles)
     if (e.name.empty()) return nullptr;
-  mistake(word.place,
-          fmt::format("{}: there is no ensemble '{}'{}", key, *name, choices(*name, names)));
+  mistake(word.place, fmt::format("{}: there is no ensemble '{}'{}", key, *name, choices(*name, names)));
   return nullptr;
 }
 

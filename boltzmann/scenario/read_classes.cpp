@@ -430,8 +430,8 @@ std::vector<AnyEnsemble*> neighbours_of(ReadNeighbourField const& around, Readin
   auto const names = reading.ensemble_names();
   for (auto const& name : around.among)
     if (!is_one_of(name, names)) {
-      reading.mistake(around.among_place, fmt::format("of: there is no ensemble '{}'{}", quoted(name),
-                                                      choices(name, names)));
+      reading.mistake(around.among_place,
+                      fmt::format("of: there is no ensemble '{}'{}", quoted(name), choices(name, names)));
       among.clear();
     }
   return among;

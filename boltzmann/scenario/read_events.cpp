@@ -69,8 +69,8 @@ void read_settings(Item const& table, std::string const& before, Reading& readin
     if (!all_loaded(reading) || !reading.context.mistakes.none()) continue;  // what is meant may not have been read
     std::vector<std::string> paths;
     for (auto const& one : reading.settable) paths.push_back(one.path);
-    reading.mistake(entry.place, fmt::format("set: an event can't set '{}'{}", path,
-                                             choices(path, paths, "it can set")));
+    reading.mistake(entry.place,
+                    fmt::format("set: an event can't set '{}'{}", path, choices(path, paths, "it can set")));
   }
 }
 
@@ -167,7 +167,8 @@ std::optional<Addition> read_added(Item const& add, Section& section, std::size_
                   "assignment instead");
   Addition all{to->particles, {}, to->kind->in(reading.dimension)};
   for (std::int64_t k = 0; k < times; ++k) {
-    auto particles = read_addition(add, *to, fmt::format("{}, event {}, time {}", to->name, number, k), reading, all.again);
+    auto particles =
+        read_addition(add, *to, fmt::format("{}, event {}, time {}", to->name, number, k), reading, all.again);
     if (!particles) return std::nullopt;
     double const more = static_cast<double>(particles->size()) * static_cast<double>(times);
     if (!fits_memory(more + static_cast<double>(to->particles->size()), *to->kind->in(reading.dimension), add.place,
@@ -182,7 +183,8 @@ std::optional<Addition> read_added(Item const& add, Section& section, std::size_
 void check_distance(Section& section, Item const* add, Addition const* added, Reading& reading) {
   if (!add) section.mistake("keep_distance", "it belongs to 'add'; leave it out");
   if (!add || !added) return;
-  if (!added->again) section.mistake("keep_distance", "it is of particles at random: add = { load = { kind = \"random\" } }");
+  if (!added->again)
+    section.mistake("keep_distance", "it is of particles at random: add = { load = { kind = \"random\" } }");
   if (add->is(Item::Kind::table) && add->find("formulas"))
     section.mistake("keep_distance", "formulas are of the places that were drawn first; leave one of both out");
   if (reading.box && reading.box->sheared())

@@ -44,9 +44,10 @@ std::string too_many(double count, std::size_t row_bytes) {
   double const machine = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
   double const needed = memory_of(count, row_bytes), gib = 1024.0 * 1024 * 1024;
   if (count <= max_particles && needed <= machine) return "";
-  return fmt::format("{:.0f} particles would need about {:.0f} GiB of memory; this machine has {:.0f} GiB, and at most "
-                     "1000000000 are allowed",
-                     count, std::ceil(needed / gib), machine / gib);
+  return fmt::format(
+      "{:.0f} particles would need about {:.0f} GiB of memory; this machine has {:.0f} GiB, and at most "
+      "1000000000 are allowed",
+      count, std::ceil(needed / gib), machine / gib);
 }
 
 bool fits_memory(double count, ClassVariant const& variant, Place const& place, Reading& reading) {
@@ -148,9 +149,8 @@ void Loader::read_spacing(std::optional<std::size_t> number, Place const& number
     if (by_constant) section_.refuse("number_density", "'lattice_constant' says it, too; leave one out");
     if (reading_.dimension == 0) return;
     spacing_known_ = catch_errors(reading_, section_.place(by_constant ? "lattice_constant" : "number_density"), [&] {
-      block_.spacing = by_constant
-                           ? spacing_for_constant(block_.kind, reading_.dimension, *options_.lattice_constant)
-                           : spacing_for_density(block_.kind, reading_.dimension, *options_.number_density);
+      block_.spacing = by_constant ? spacing_for_constant(block_.kind, reading_.dimension, *options_.lattice_constant)
+                                   : spacing_for_density(block_.kind, reading_.dimension, *options_.number_density);
     });
   } else if (kind_->name == "fill" && number) {
     read_corners();
@@ -358,12 +358,13 @@ void Loader::refuse_overlapping_ends(std::array<double, 3> const& lengths) {
     if (!reading_.box->periodic(a) || length - axis <= block_.spacing / 2) continue;
     auto const told = [&](double number) { return reading_.context.units.text(number, dimensions::length, 6); };
     Place const counts = section_.place("counts"), spacing = section_.place("spacing");
-    reading_.mistake(spacing.override_number > counts.override_number ? spacing : counts,
-                     fmt::format("counts: the block is {} long along {}, the periodic axis {}: its ends would overlap{}",
-                                 told(length), "xyz"[a], told(axis),
-                                 options_.spacing && block_.kind != Lattice::square
-                                     ? "; 'spacing' is of nearest neighbours, not the lattice constant"
-                                     : ""));
+    reading_.mistake(
+        spacing.override_number > counts.override_number ? spacing : counts,
+        fmt::format("counts: the block is {} long along {}, the periodic axis {}: its ends would overlap{}",
+                    told(length), "xyz"[a], told(axis),
+                    options_.spacing && block_.kind != Lattice::square
+                        ? "; 'spacing' is of nearest neighbours, not the lattice constant"
+                        : ""));
     return;
   }
 }
@@ -438,20 +439,22 @@ PlaceAgain Loader::place_again() const {
   if (!kind_ || kind_->name != "random" || !reading_.box) return nullptr;
   auto options = random_options();
   if (where_)
-    options.where = [where = std::make_shared<ParticleFormula>(*where_)](double const* at) { return (*where)(at) != 0; };
+    options.where = [where = std::make_shared<ParticleFormula>(*where_)](double const* at) {
+      return (*where)(at) != 0;
+    };
   std::optional<Box> part;
   if (section_.has("low") || section_.has("high")) {
     part.emplace(part_of_box());
     for (auto const& region : reading_.box->regions()) part->install(region);
   }
-  return [options, part](AnyEnsemble& particles, Box const& now, std::vector<AnyEnsemble const*> others,
-                         double distance) {
-    RandomLoadOptions again = options;
-    again.others = std::move(others);
-    again.distance_to_others = distance;
-    again.space = &now;
-    random_load(particles, part ? *part : now, again);
-  };
+  return
+      [options, part](AnyEnsemble& particles, Box const& now, std::vector<AnyEnsemble const*> others, double distance) {
+        RandomLoadOptions again = options;
+        again.others = std::move(others);
+        again.distance_to_others = distance;
+        again.space = &now;
+        random_load(particles, part ? *part : now, again);
+      };
 }
 
 void Loader::load_random(AnyEnsemble& particles) {

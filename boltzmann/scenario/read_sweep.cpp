@@ -200,9 +200,8 @@ std::string read_right(Section& section, SweepPlan const& plan, Reading& reading
     names.push_back(key.path);
   }
   if (reading.diagnoses_known && !word.empty() && std::find(names.begin(), names.end(), word) == names.end())
-    reading.mistake(item->place,
-                    fmt::format("x: '{}' is neither a column of a diagnosis nor a key that varies{}",
-                                word, choices(word, names)));
+    reading.mistake(item->place, fmt::format("x: '{}' is neither a column of a diagnosis nor a key that varies{}", word,
+                                             choices(word, names)));
   return word;
 }
 

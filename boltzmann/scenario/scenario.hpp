@@ -33,7 +33,7 @@ struct ScenarioErrors : Error {
                           std::vector<ScenarioParameter> parameters = {});
   std::vector<std::string> lines;
   std::vector<ScenarioParameter> parameters;  ///< as in ScenarioSimulation, as far as they could be read
-  std::vector<ScenarioParameter> absent;  ///< as in ScenarioSimulation, as far as the tables could be read
+  std::vector<ScenarioParameter> absent;      ///< as in ScenarioSimulation, as far as the tables could be read
 };
 
 /// A picture that a scenario asks for, or (by its name) a view in the window.

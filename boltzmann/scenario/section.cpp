@@ -175,10 +175,10 @@ bool Section::other_capitals(std::string_view key) {
   if (has(key)) return false;
   for (auto const& entry : table_.entries) {
     if (!same_but_for_capitals(entry.key, {std::string(key)})) continue;
-    mistake(entry.place, fmt::format("unknown {} '{}' in {}; did you mean '{}'?",
-                                     entry.item.is(Item::Kind::table) || entry.item.is(Item::Kind::array) ? "table"
-                                                                                                           : "key",
-                                     entry.key, title_, key));
+    mistake(entry.place,
+            fmt::format("unknown {} '{}' in {}; did you mean '{}'?",
+                        entry.item.is(Item::Kind::table) || entry.item.is(Item::Kind::array) ? "table" : "key",
+                        entry.key, title_, key));
     known_.push_back(entry.key);
     return true;
   }
@@ -187,7 +187,8 @@ bool Section::other_capitals(std::string_view key) {
 
 Item const* Section::need(std::string_view key, std::string_view example) {
   Item const* item = find(key);
-  if (!item && !other_capitals(key)) mistake(table_.place, fmt::format("{} has no '{}'; add e.g. {}", title_, key, example));
+  if (!item && !other_capitals(key))
+    mistake(table_.place, fmt::format("{} has no '{}'; add e.g. {}", title_, key, example));
   return item;
 }
 
@@ -269,7 +270,6 @@ std::string rather_in(std::string const& key, std::string const& title) {
   if (title.starts_with("[[ensembles]]") && classes != places.end()) places.erase(places.begin(), classes);
   return places.empty() || places.size() > 4 ? "" : "; it is a key of " + join(places);
 }
-
 
 /// "bzm show run" of [run].
 std::string where_told(std::string const& title) {

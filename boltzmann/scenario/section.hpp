@@ -22,10 +22,10 @@ namespace boltzmann {
 /// What all readers share.
 struct ReadContext {
   Mistakes& mistakes;
-  UnitSystem units;           ///< of the numbers to come
-  std::string folder;         ///< of the scenario file: where its other files are
-  KeyNotes* notes = nullptr;  ///< notes what has been read; null: nobody does
-  bool confined = false;      ///< overrides name only files in `folder`
+  UnitSystem units;             ///< of the numbers to come
+  std::string folder;           ///< of the scenario file: where its other files are
+  KeyNotes* notes = nullptr;    ///< notes what has been read; null: nobody does
+  bool confined = false;        ///< overrides name only files in `folder`
   bool plain_as_shown = false;  ///< numbers without a unit are in the units that pictures show, not in the base's
 };
 

@@ -362,7 +362,7 @@ class Simulation {
     double dt = 0;
     Dependence are_for = {};  // as they were stored; influences, which they don't read, are not asked for
   } whole_;
-  std::uint64_t checked_rows_ = 0;                      // checksum of the rows that check() has calculated for
+  std::uint64_t checked_rows_ = 0;                        // checksum of the rows that check() has calculated for
   std::optional<std::uint64_t> rows_before_change_ = {};  // while an adaptation acts
   bool checked_ = false, begun_ = false, running_ = false;
   mutable bool stop_ = false;   // read and written as an atomic one: a signal or another thread may set it

@@ -605,8 +605,7 @@ SweepReport run_sweep(SweepOptions const& options, WallTime const& wall, std::un
     lock = lock_folder(folder);
     write_whole(folder + "/sweep.toml", plan.text);
   });
-  return do_runs(folder, plan, title, options.overrides.threads, options.quiet, wall, options.attend,
-                 options.lasting);
+  return do_runs(folder, plan, title, options.overrides.threads, options.quiet, wall, options.attend, options.lasting);
 }
 
 SweepReport resume_sweep(std::string const& place, std::optional<int> threads, bool quiet, WallTime const& wall) {

@@ -69,7 +69,8 @@ TEST(Words, AQuantityWithoutQuotesIsShownWithThem) {
   for (auto const& [from, to, wanted] : std::vector<std::array<std::string, 3>>{
            {"step = \"2 fs\"", "step = 5 fs", "write a quantity with a unit as text: step = \"5 fs\""},
            {"step = \"2 fs\"", "step = 5fs", "write a quantity with a unit as text: step = \"5fs\""},
-           {"step = \"2 fs\"", "step = 2.5e-3 ps  # short", "write a quantity with a unit as text: step = \"2.5e-3 ps\""},
+           {"step = \"2 fs\"", "step = 2.5e-3 ps  # short",
+            "write a quantity with a unit as text: step = \"2.5e-3 ps\""},
            {"mass = \"40 amu\"", "mass = 40 amu", "write a quantity with a unit as text: mass = \"40 amu\""},
            {"[\"10 nm\", \"10 nm\"]", "[10 nm, 10 nm]", "write a quantity with a unit as text: \"10 nm\""},
            {"[[\"1 nm\", \"1 nm\"]", "[[1 nm, \"1 nm\"]", "write a quantity with a unit as text: \"1 nm\""},
@@ -131,11 +132,13 @@ TEST(Words, SigmaAndEpsilonAreTaken) {
 }
 
 TEST(Words, SigmaOfSeveralSpeciesIsMixed) {
-  std::string const two = start + "\n[[ensembles]]\nname = \"b\"\nclass = \"Newton\"\nmass = \"40 amu\"\n"
-                                  "load = { kind = \"positions\", positions = [[\"1 nm\", \"1.5 nm\"]] }\n";
-  std::string const among = "\n[[influences]]\nlaw = \"lennard-jones\"\namong = [\"a\", \"b\"]\n"
-                            "epsilon = { a = \"1 kJ/mol\", b = \"2 kJ/mol\" }\nsigma = { a = \"0.34 nm\", b = "
-                            "\"0.3 nm\" }\nmixing = { epsilon = \"geometric\", sigma = \"arithmetic\" }\n";
+  std::string const two = start +
+                          "\n[[ensembles]]\nname = \"b\"\nclass = \"Newton\"\nmass = \"40 amu\"\n"
+                          "load = { kind = \"positions\", positions = [[\"1 nm\", \"1.5 nm\"]] }\n";
+  std::string const among =
+      "\n[[influences]]\nlaw = \"lennard-jones\"\namong = [\"a\", \"b\"]\n"
+      "epsilon = { a = \"1 kJ/mol\", b = \"2 kJ/mol\" }\nsigma = { a = \"0.34 nm\", b = "
+      "\"0.3 nm\" }\nmixing = { epsilon = \"geometric\", sigma = \"arithmetic\" }\n";
   auto const outcome = Case("case", two + among).check();
   EXPECT_EQ(outcome.status, 0) << outcome.err;
 }
@@ -152,12 +155,12 @@ TEST(Words, ThermostatsAndOtherTablesAreNamedWhereTheyAreMissed) {
 
 TEST(Words, OtherCapitalsAreTheOnlyMistake) {
   std::string const all = start + law;
-  for (auto const& [from, to, wanted] : std::vector<std::array<std::string, 3>>{
-           {"[box]", "[Box]", "unknown table 'Box'"},
-           {"[run]", "[RUN]", "unknown table 'RUN'"},
-           {"[[ensembles]]", "[[Ensembles]]", "did you mean 'ensembles'?"},
-           {"low = ", "Low = ", "unknown key 'Low' in [box]; did you mean 'low'?"},
-           {"class = ", "Class = ", "did you mean 'class'?"}}) {
+  for (auto const& [from, to, wanted] :
+       std::vector<std::array<std::string, 3>>{{"[box]", "[Box]", "unknown table 'Box'"},
+                                               {"[run]", "[RUN]", "unknown table 'RUN'"},
+                                               {"[[ensembles]]", "[[Ensembles]]", "did you mean 'ensembles'?"},
+                                               {"low = ", "Low = ", "unknown key 'Low' in [box]; did you mean 'low'?"},
+                                               {"class = ", "Class = ", "did you mean 'class'?"}}) {
     auto const told = told_of(with(all, from, to));
     EXPECT_NE(told.substr(0, told.find('\n')).find(wanted), std::string::npos) << told;
     EXPECT_EQ(told.find("there is no ["), std::string::npos) << told;
@@ -194,8 +197,9 @@ TEST(Words, TheHintComesFirstAndListsAreShort) {
   EXPECT_NE(diagnosis.find(" more (bzm list diagnoses"), std::string::npos) << diagnosis;
   for (auto const& told :
        {told_of(start + "\n[[influences]]\nlaw = \"morze\"\non = \"a\"\n"), told_of(with(start, "Newton", "Neuton")),
-        told_of(with(start, "kind = \"positions\"", "kind = \"random_\"")), told_of(with(start, "steps = 1", "stps = 1")),
-        bzm({"rnu", "copper"}, "/").err, bzm({"run", "--stpes", "3", "copper"}, "/").err,
+        told_of(with(start, "kind = \"positions\"", "kind = \"random_\"")),
+        told_of(with(start, "steps = 1", "stps = 1")), bzm({"rnu", "copper"}, "/").err,
+        bzm({"run", "--stpes", "3", "copper"}, "/").err,
         told_of(start + "\n[[dissipation]]\nkind = \"langevine\"\non = \"a\"\n"),
         told_of(start + "\n[[diagnoses]]\nkind = \"nothing-like-it\"\n")}) {
     EXPECT_LT(told.find("did you mean"), told.find("here are") + 1) << told;
@@ -268,8 +272,8 @@ trajectory = 1
   std::string const region = nanometres ? "[[30,70],[35,65]]" : "[[30e-9,70e-9],[35e-9,65e-9]]";
   auto const part = bzm({"render", "run", "-o", "part.svg", "--region", region}, one.string());
   ASSERT_EQ(part.status, 0) << part.err;
-  auto const with_units = bzm({"render", "run", "-o", "units.svg", "--region", "[['30 nm','70 nm'],['35 nm','65 nm']]"},
-                              one.string());
+  auto const with_units =
+      bzm({"render", "run", "-o", "units.svg", "--region", "[['30 nm','70 nm'],['35 nm','65 nm']]"}, one.string());
   ASSERT_EQ(with_units.status, 0) << with_units.err;
   std::string const drawn = test::text_of(one / "part.svg");
   EXPECT_EQ(drawn, test::text_of(one / "units.svg"));
@@ -325,7 +329,8 @@ diagnoses = 30
   Case const stopped("case", text);
   ASSERT_EQ(stopped.run({"--steps", "5"}).status, 0);
   ASSERT_EQ(bzm({"resume", "run", "--steps", "25", "--threads", "1"}, stopped.string()).status, 0);
-  EXPECT_EQ(test::text_of(stopped / "run/diagnoses.csv").substr(0, 60), test::text_of(apart / "run/diagnoses.csv").substr(0, 60));
+  EXPECT_EQ(test::text_of(stopped / "run/diagnoses.csv").substr(0, 60),
+            test::text_of(apart / "run/diagnoses.csv").substr(0, 60));
   EXPECT_EQ(stopped.column("number").back(), 500);
 }
 

@@ -364,8 +364,9 @@ void keeps_distance(Boundary boundary, double between) {
   for (auto const& p : more) {
     for (auto const& q : first) EXPECT_GE(distance(p, q), 1.1);
     for (auto const& q : second) EXPECT_GE(distance(p, q), 1.1);
-    for (auto const& q : more)
+    for (auto const& q : more) {
       if (&p != &q) EXPECT_GE(distance(p, q), between);
+    }
   }
   // Those whose first place was free are where they would be without others.
   Ensemble<Newton<D>> alone("more", 30);
@@ -399,7 +400,8 @@ TEST(Random, SaysWhenOthersLeaveNoPlace) {
       random_load(more, box, options);
       FAIL() << "there is no place";
     } catch (Error const& error) {
-      EXPECT_NE(std::string(error.what()).find("in 20000 draws no place was found for particle 0 of 3"), std::string::npos)
+      EXPECT_NE(std::string(error.what()).find("in 20000 draws no place was found for particle 0 of 3"),
+                std::string::npos)
           << error.what();
     }
     options.distance_to_others = 0.6;
