@@ -503,6 +503,10 @@ std::string catalogue_page(std::string const& given) {
   if (auto const term = foreign_term(given); !term.empty()) throw Error("nothing is called '" + given + "'; " + term);
   std::string const plain = without_foreign_kind(given);
   if (plain != given && plain != name) {
+    try {
+      return catalogue_page(plain);
+    } catch (Error const&) {  // told below, by the whole of its name
+    }
     auto const near = near_name(plain);
     throw Error("nothing is called '" + given + "'" +
                 (near.starts_with("; it is ") ? near : "; the page Coming from LAMMPS has a table of such words") +

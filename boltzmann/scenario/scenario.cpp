@@ -113,12 +113,22 @@ void check_simulation(Reading& reading) {
   }
 }
 
+/// Whether a text of it names an influence.
+bool reads_influences(Item const& item) {
+  return item.text.find("influence") != std::string::npos ||
+         std::any_of(item.elements.begin(), item.elements.end(), reads_influences) ||
+         std::any_of(item.entries.begin(), item.entries.end(),
+                     [](Entry const& entry) { return reads_influences(entry.item); });
+}
+
 void build(Item& document, Reading& reading) {
   read_tables(document, reading);
   if (!reading.context.mistakes.none()) return;
   catch_errors(reading, reading.run.place, [&] { make_simulation(reading); });
   if (!reading.result->simulation) return;
   complete_simulation(reading);
+  if (Entry const* diagnoses = document.find("diagnoses"); diagnoses && reads_influences(diagnoses->item))
+    reading.result->simulation->observers_read_influences();
   check_simulation(reading);
 }
 

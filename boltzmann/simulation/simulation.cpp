@@ -516,10 +516,12 @@ bool Simulation::take_step(int direction, FusedSteps* whole, bool last) {
   if (!changes_.empty()) adapt_now();
   if (!events_.empty()) happen_now();
   if (!observations_.empty()) {
-    if (whole && observation_due())
+    if (whole && observation_due()) {
       whole->store(time());
-    else if (observation_due())
+      if (observers_read_influences_) refresh_in_run();
+    } else if (observation_due()) {
       calculate(time());  // unless they hold: what the next step would begin with all the same
+    }
     observe_now();
   }
   for (auto const& one : progress_)

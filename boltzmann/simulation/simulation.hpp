@@ -141,6 +141,8 @@ class Simulation {
   void store_rows() {
     if (running_ && whole_.steps) whole_.steps->store(time());
   }
+  /// Observers of this simulation read influences: FusedSteps, which keep none, then have them calculated for each look.
+  void observers_read_influences() { observers_read_influences_ = true; }
   /// Whether refresh() finds this field from others.
   bool derives(AnyEnsemble const& ensemble, Field const& field) const;
 
@@ -364,7 +366,7 @@ class Simulation {
   } whole_;
   std::uint64_t checked_rows_ = 0;                        // checksum of the rows that check() has calculated for
   std::optional<std::uint64_t> rows_before_change_ = {};  // while an adaptation acts
-  bool checked_ = false, begun_ = false, running_ = false;
+  bool checked_ = false, begun_ = false, running_ = false, observers_read_influences_ = false;
   mutable bool stop_ = false;   // read and written as an atomic one: a signal or another thread may set it
   mutable bool pause_ = false;  // the same
 };
