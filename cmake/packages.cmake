@@ -44,6 +44,8 @@ set(config_folder ${CMAKE_INSTALL_LIBDIR}/cmake/boltzmann)
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/boltzmann-config.cmake.in ${CMAKE_CURRENT_BINARY_DIR}/boltzmann-config.cmake
                               INSTALL_DESTINATION ${config_folder} PATH_VARS CMAKE_INSTALL_INCLUDEDIR CMAKE_INSTALL_LIBDIR)
 write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/boltzmann-config-version.cmake COMPATIBILITY SameMinorVersion)
+file(RELATIVE_PATH BOLTZMANN_PREFIX_FROM_PKGCONFIG /prefix/${CMAKE_INSTALL_LIBDIR}/pkgconfig /prefix)
+string(REGEX REPLACE "/$" "" BOLTZMANN_PREFIX_FROM_PKGCONFIG "${BOLTZMANN_PREFIX_FROM_PKGCONFIG}")
 configure_file(${CMAKE_CURRENT_LIST_DIR}/boltzmann.pc.in ${CMAKE_CURRENT_BINARY_DIR}/boltzmann.pc @ONLY)
 
 # Installed: <prefix>/bin/bzm, lib/libboltzmann.a, include/boltzmann, share/boltzmann/scenarios, the man page. Components:

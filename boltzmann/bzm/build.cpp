@@ -96,7 +96,8 @@ std::vector<std::string> hints(std::string const& messages) {
   }
   std::vector<std::string> all;
   for (auto const& name : called)
-    all.push_back(fmt::format("a law is compiled for several particles at once: write {0}(x), not std::{0}(x)", name));
+    all.push_back(
+        fmt::format("in a law write {0} without std:: (a law is compiled for several particles at once)", name));
   for (auto const* ours : {select_hint, interaction_hint})
     if (messages.find(ours) != std::string::npos) all.emplace_back(ours);
   return all;
@@ -139,11 +140,12 @@ int build(BuildOptions const& options) {
   if (options.dry) return 0;
   auto const start = Clock::now();
   std::string messages;
-  if (int const status = run_program(line, messages); status != 0) {
-    fmt::print(stderr, "'{}' does not compile (the compiler's messages are above)\n", options.program);
+  int const status = run_program(line, messages);
+  if (status != 0) fmt::print(stderr, "'{}' does not compile\n", options.program);
+  if (status != 0)
     for (auto const& hint : hints(messages)) fmt::print(stderr, "hint: {}\n", hint);
-    return status > 128 ? status : 2;
-  }
+  fmt::print(stderr, "{}", messages);
+  if (status != 0) return status > 128 ? status : 2;
   fmt::print("{} built in {:.1f} s\n", out, seconds_since(start));
   return 0;
 }

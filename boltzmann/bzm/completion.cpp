@@ -191,8 +191,7 @@ int completion(std::string const& shell, std::vector<CommandWords> const& comman
   else if (shell == "fish")
     script = fish(commands);
   else
-    throw Error(fmt::format("there is no completion for '{}'; there are {}{}", shell, join(completion_shells()),
-                            did_you_mean(shell, completion_shells())));
+    throw Error(fmt::format("there is no completion for '{}'{}", shell, choices(shell, completion_shells())));
   std::fputs(script.c_str(), stdout);
   return 0;
 }

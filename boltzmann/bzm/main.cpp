@@ -92,15 +92,13 @@ void check_command(CLI::App const& app, int argc, char** argv) {
   std::string const word = argv[1];
   auto const names = command_names(app);
   if (std::find(names.begin(), names.end(), word) != names.end()) return;
-  std::string message = "unknown command '" + word + "'; there are " + join(names);
+  std::string hint = did_you_mean(word, names);
   std::error_code ignored;
   if (std::filesystem::is_regular_file(word, ignored) && word.ends_with(".toml"))
-    message += "; did you mean 'bzm run " + word + "'?";
+    hint = "; did you mean 'bzm run " + word + "'?";
   else if (word == "help")
-    message += "; did you mean 'bzm --help'?";
-  else
-    message += did_you_mean(word, names);
-  throw Error(message);
+    hint = "; did you mean 'bzm --help'?";
+  throw Error("unknown command '" + word + "'" + choices_with(hint, names, "there are", "bzm --help"));
 }
 
 // An option that is not there: the nearest one that is.
@@ -113,8 +111,9 @@ std::string explain(CLI::App const& app, CLI::ParseError const& error, int argc,
     std::string const word = argv[i];
     std::string const name = word.substr(0, word.find('='));
     if (name.starts_with("--") && name.size() > 2 && std::find(known.begin(), known.end(), name) == known.end())
-      return fmt::format("unknown option '{}'{}; {} has {}{}", name, command ? " of bzm " + command->get_name() : "",
-                         command ? "it" : "bzm", join(known), did_you_mean(name, known));
+      return fmt::format("unknown option '{}'{}{}", name, command ? " of bzm " + command->get_name() : "",
+                         choices(name, known, command ? "it has" : "bzm has",
+                                 command ? "bzm " + command->get_name() + " --help" : std::string("bzm --help")));
   }
   std::string text = error.what();
   std::replace(text.begin(), text.end(), '\n', ' ');

@@ -84,13 +84,7 @@ std::string find_program(std::string const& name) {
 int run_program(std::vector<std::string> const& words) { return wait_for(spawn(words, nullptr)); }
 
 int run_program(std::vector<std::string> const& words, std::string& errors) {
-  return run_heard(words, STDERR_FILENO, [&](std::string_view piece) {
-    errors += piece;
-    for (ssize_t count = 0; !piece.empty() && (count = write(STDERR_FILENO, piece.data(), piece.size())) != 0;) {
-      if (count < 0 && errno != EINTR) break;
-      if (count > 0) piece.remove_prefix(static_cast<std::size_t>(count));
-    }
-  });
+  return run_heard(words, STDERR_FILENO, [&](std::string_view piece) { errors += piece; });
 }
 
 std::string output_of(std::vector<std::string> const& words) {

@@ -12,7 +12,7 @@ std::string find_program(std::string const& name);
 /// Runs a program and waits for it. Gives its exit status (128 + signal if one ended it). Error if it can't be started.
 int run_program(std::vector<std::string> const& words);
 
-/// The same; what it writes to standard error goes there, and into `errors`, too.
+/// The same; what it writes to standard error goes into `errors` alone.
 int run_program(std::vector<std::string> const& words, std::string& errors);
 
 /// The same; gives what it writes to standard output, or "" if it fails.

@@ -84,7 +84,7 @@ int render(RenderOptions const& options) {
                 "' has no trajectory.h5 to draw: the run was not asked for one; trajectory = 10 in [output], or --set "
                 "output.trajectory=10, stores a frame every 10 steps");
   auto const scenario = load_stored_run(options.folder);
-  StoredPictures pictures(*scenario, options.folder, options.picture);
+  StoredPictures pictures(*scenario, options.folder, options.picture, PlainNumbers::shown);
   FigureOptions paper;
   paper.scale = options.scale;
   paper.dark = options.dark;

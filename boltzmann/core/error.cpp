@@ -68,6 +68,27 @@ std::string did_you_mean(std::string_view word, std::span<std::string const> can
   return best.empty() ? "" : "; did you mean '" + best + "'?";
 }
 
+std::string choices(std::string_view word, std::span<std::string const> names, std::string_view verb,
+                    std::string_view where) {
+  return choices_with(did_you_mean(word, names), names, verb, where);
+}
+
+std::string choices_with(std::string_view hint, std::span<std::string const> names, std::string_view verb,
+                         std::string_view where) {
+  std::string begin(verb);
+  if (verb == "there are" && names.size() <= 1) begin = "there is";
+  if (verb == "allowed are" && names.size() <= 1) begin = "allowed is";
+  if (names.empty()) return "; " + begin + (verb == "there are" ? " none" : " nothing") + std::string(hint);
+  if (names.size() <= most_names) return "; " + begin + " " + join(names) + std::string(hint);
+  std::string const list = begin + " " + join(names.first(most_names)) + " and " +
+                           std::to_string(names.size() - most_names) + " more" +
+                           (where.empty() ? "" : " (" + std::string(where) + " shows all)");
+  if (hint.empty()) return "; " + list;
+  std::string text(hint);
+  if (text.back() != '?') return text + "; " + list;
+  return text + " " + static_cast<char>(std::toupper(static_cast<unsigned char>(list[0]))) + list.substr(1);
+}
+
 namespace {
 
 /// Bytes of the letter of UTF-8 that begins here; 0 if there is none.
@@ -123,8 +144,7 @@ std::string join(std::span<std::string const> words, std::string_view separator)
 }
 
 void refuse_word(std::string_view what, std::string_view word, std::vector<std::string> const& words) {
-  throw Error("unknown " + std::string(what) + " '" + std::string(word) + "'; there are " + join(words) +
-              did_you_mean(word, words));
+  throw Error("unknown " + std::string(what) + " '" + std::string(word) + "'" + choices(word, words));
 }
 
 }  // namespace boltzmann

@@ -57,8 +57,7 @@ UnitStyle const& unit_style(std::string_view name) {
   for (auto const& style : styles)
     if (style.name == name) return style;
   auto const names = unit_style_names();
-  throw Error(fmt::format("there are no units '{}'; there are {}{}", boltzmann::quoted(name), join(names),
-                          did_you_mean(name, names)));
+  throw Error(fmt::format("there are no units '{}'{}", boltzmann::quoted(name), choices(name, names)));
 }
 
 std::string UnitStyle::unit(Dimension d) const {

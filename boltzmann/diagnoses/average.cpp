@@ -19,8 +19,7 @@ Average::Average(std::vector<Column> const& before, Options const& options)
   for (auto const& name : wanted.empty() ? known : wanted) {
     auto const found = std::find(known.begin(), known.end(), name);
     if (found == known.end())
-      throw Error(fmt::format("average: no diagnosis before it has a column '{}'; there are {}{}", name, join(known),
-                              did_you_mean(name, known)));
+      throw Error(fmt::format("average: no diagnosis before it has a column '{}'{}", name, choices(name, known)));
     auto const place = static_cast<std::size_t>(found - known.begin());
     averaged_.push_back({before[place], place + 1});
   }

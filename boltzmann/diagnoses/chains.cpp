@@ -53,9 +53,7 @@ Chains::Chains(std::vector<AnyEnsemble const*> const& available, std::vector<std
   names_ = names.empty() ? known : names;
   for (auto const& name : names_) {
     auto const found = std::find(known.begin(), known.end(), name);
-    if (found == known.end())
-      throw Error(
-          fmt::format("there is no ensemble '{}'; there are {}{}", name, join(known), did_you_mean(name, known)));
+    if (found == known.end()) throw Error(fmt::format("there is no ensemble '{}'{}", name, choices(name, known)));
     check_chains(*available[static_cast<std::size_t>(found - known.begin())], length);
   }
 }

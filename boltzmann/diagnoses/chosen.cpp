@@ -16,7 +16,7 @@ AnyEnsemble const& ensemble_named(std::vector<AnyEnsemble const*> const& availab
     if (ensemble->name() == name) return *ensemble;
     known.push_back(ensemble->name());
   }
-  throw Error(fmt::format("there is no ensemble '{}'; there are {}{}", name, join(known), did_you_mean(name, known)));
+  throw Error(fmt::format("there is no ensemble '{}'{}", name, choices(name, known)));
 }
 
 std::vector<std::string> chosen_names(std::vector<AnyEnsemble const*> const& available,

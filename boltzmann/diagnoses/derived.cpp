@@ -156,8 +156,8 @@ DerivedQuantity find(AnyEnsemble const& ensemble, std::string_view name, std::sp
   }
   Field const* vector = ensemble.find_field(name);
   std::string const hint = vector != nullptr ? fmt::format("; did you mean '{}.x'?", name) : did_you_mean(name, names);
-  throw Error(fmt::format("ensemble '{}' of class {} has no quantity '{}'; it has {}{}", ensemble.name(),
-                          ensemble.class_name(), name, join(names), hint));
+  throw Error(fmt::format("ensemble '{}' of class {} has no quantity '{}'{}", ensemble.name(), ensemble.class_name(),
+                          name, choices_with(hint, names, "it has")));
 }
 
 }  // namespace

@@ -392,7 +392,8 @@ std::unique_ptr<Diagnosis> make_diagnosis(std::string_view kind, DiagnosisParame
     }
     names.push_back(entry.kind.name);
   }
-  throw Error(fmt::format("there is no diagnosis '{}'; there are {}{}", kind, join(names), did_you_mean(kind, names)));
+  throw Error(
+      fmt::format("there is no diagnosis '{}'{}", kind, choices(kind, names, "there are", "bzm list diagnoses")));
 }
 
 }  // namespace boltzmann

@@ -57,8 +57,7 @@ MeshQuantity mesh_quantity(std::span<MeshField const* const> fields, std::string
       return {field, c, label};
     }
   if (fields.empty()) throw Error("there is no mesh in this simulation");
-  throw Error(
-      fmt::format("the mesh has no '{}'; it has {}{}", name, join(names), did_you_mean(std::string(name), names)));
+  throw Error(fmt::format("the mesh has no '{}'{}", name, choices(std::string(name), names, "it has")));
 }
 
 double field_energy(std::span<MeshField const* const> fields) {

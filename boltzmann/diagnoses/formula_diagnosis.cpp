@@ -79,7 +79,7 @@ class OfEnsembles : public Diagnosis {
       if (one->name() == name) return *one;
       names.push_back(one->name());
     }
-    throw Error(fmt::format("there is no ensemble '{}'; there are {}{}", name, join(names), did_you_mean(name, names)));
+    throw Error(fmt::format("there is no ensemble '{}'{}", name, choices(name, names)));
   }
   std::size_t count(AnyEnsemble const& ensemble) const {
     return particles_.empty() ? ensemble.size() : particles_.size();

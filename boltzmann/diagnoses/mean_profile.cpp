@@ -47,7 +47,9 @@ std::vector<Column> MeanProfile::columns() const {
 void MeanProfile::check(Box const& box) const {
   if (box.boundary(options_.axis) == Boundary::open && (std::isnan(options_.from) || std::isnan(options_.to)))
     throw Error(
-        fmt::format("mean-profile: axis {} is open; say 'from' where 'to' where its bins are", "xyz"[options_.axis]));
+        fmt::format("mean-profile: axis {} is open, so the ends of its bins are not known; write 'from' and 'to', the "
+                    "lowest and the highest {} of the bins",
+                    "xyz"[options_.axis], "xyz"[options_.axis]));
 }
 
 bool MeanProfile::needs_energies() const {

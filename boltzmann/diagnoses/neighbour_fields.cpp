@@ -137,6 +137,11 @@ void NeighbourFields::complete(double) {
   }
 }
 
+bool NeighbourFields::derives(AnyEnsemble const& ensemble, Field const& field) const {
+  return std::any_of(found_.begin(), found_.end(),
+                     [&](Found const& found) { return found.ensemble == &ensemble && found.offset == field.offset; });
+}
+
 EnergyAndVirial NeighbourFields::measure(double) {
   auto measures = EnergyAndVirial::known();
   measures.reciprocal = true;

@@ -34,6 +34,7 @@ class NeighbourFields final : public Scheme {
   void find(AnyEnsemble& ensemble, NeighbourField field);
 
   void complete(double time) override;
+  bool derives(AnyEnsemble const& ensemble, Field const& field) const override;
 
   void add_influences(double /*time*/) override {}
   std::optional<std::uint64_t> revision() const override { return revision_with({}); }

@@ -339,7 +339,7 @@ ProfiledQuantity entry(int dimension, std::string_view name) {
     if (one.meaning.name == name) return one;
     names.push_back(one.meaning.name);
   }
-  throw Error(fmt::format("a profile has no quantity '{}'; it has {}{}", name, join(names), did_you_mean(name, names)));
+  throw Error(fmt::format("a profile has no quantity '{}'{}", name, choices(name, names, "it has")));
 }
 
 }  // namespace

@@ -44,6 +44,8 @@ class Dissipation {
   /// Brings what follows from others (temperatures) up to date for observers; it changes nothing that the next step
   /// depends on.
   virtual void update_derived_fields() {}
+  /// Whether update_derived_fields() finds this field.
+  virtual bool derives(AnyEnsemble const& /*ensemble*/, Field const& /*field*/) const { return false; }
   /// The sum of the internal energies of its ensembles; zero for dissipations without.
   virtual double internal_energy() const { return 0; }
   /// Why every rank of a team acts on all particles, in a few words; empty if each acts on its share.

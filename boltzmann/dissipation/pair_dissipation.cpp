@@ -461,6 +461,12 @@ void PairDissipation::update_derived_fields() {
   }
 }
 
+bool PairDissipation::derives(AnyEnsemble const& ensemble, Field const& field) const {
+  return std::any_of(members_.begin(), members_.end(), [&](auto const& member) {
+    return member->ensemble == &ensemble && member->law && member->temperature == field.offset;
+  });
+}
+
 double PairDissipation::internal_energy() const {
   ExactSum sum;
   std::vector<AnyEnsemble const*> of;

@@ -60,6 +60,7 @@ class PairDissipation final : public Dissipation {
   std::string kind() const override { return "dpd, " + to_string(method_); }
   void advance(StepContext const& context) override;
   void update_derived_fields() override;
+  bool derives(AnyEnsemble const& ensemble, Field const& field) const override;
   double internal_energy() const override;
   double heat() const override { return heat_; }
   std::string undivided() const override;

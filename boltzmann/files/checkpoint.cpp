@@ -7,6 +7,7 @@
 #include <boltzmann/core/input_file.hpp>
 #include <boltzmann/files/checkpoint.hpp>
 #include <boltzmann/files/checksum.hpp>
+#include <boltzmann/files/disk_sync.hpp>
 #include <boltzmann/files/hdf5_file.hpp>
 #include <boltzmann/files/text_file.hpp>
 #include <boltzmann/particles/ensemble.hpp>
@@ -62,7 +63,8 @@ class Descriptor {
   }
 
   void sync() const {
-    if (fsync(id_) != 0) throw Error(fmt::format("{}: can't be brought to the disk: {}", path_, reason(errno)));
+    if (sync_file(id_, false) != 0)
+      throw Error(fmt::format("{}: can't be brought to the disk: {}", path_, reason(errno)));
   }
 
   std::uint64_t checksum(std::uint64_t from) const {

@@ -133,8 +133,7 @@ void CsvFile::write(std::int64_t step, std::span<double const> values) {
 std::vector<double> const& CsvTable::column(std::string_view name) const {
   for (std::size_t k = 0; k < header.size(); ++k)
     if (header[k] == name) return columns[k];
-  throw Error(
-      fmt::format("there is no column '{}'; there are {}{}", name, some_of(header), did_you_mean(name, header)));
+  throw Error(fmt::format("there is no column '{}'{}", name, choices(name, header)));
 }
 
 void write_csv(std::string const& path, CsvTable const& table) {

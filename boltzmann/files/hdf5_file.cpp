@@ -1,6 +1,7 @@
 // HDF5 files on the C API.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/input_file.hpp>
+#include <boltzmann/files/disk_sync.hpp>
 #include <boltzmann/files/hdf5_driver.hpp>
 #include <boltzmann/files/hdf5_file.hpp>
 #include <boltzmann/files/text_file.hpp>
@@ -309,7 +310,7 @@ void File::flush() {
 }
 
 void File::sync() {
-  if (fdatasync(disk_->descriptor) != 0) throw Error(path_ + ": can't be brought to the disk: " + reason(errno));
+  if (sync_file(disk_->descriptor, true) != 0) throw Error(path_ + ": can't be brought to the disk: " + reason(errno));
 }
 
 void File::keep_in(std::string log, UndoLog::Label const& label) {

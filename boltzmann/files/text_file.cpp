@@ -1,6 +1,7 @@
 // Text files on the system's own calls.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/input_file.hpp>
+#include <boltzmann/files/disk_sync.hpp>
 #include <boltzmann/files/text_file.hpp>
 
 #include <fcntl.h>
@@ -88,7 +89,7 @@ void TextFile::cut(std::uint64_t size) {
 }
 
 void TextFile::sync() {
-  if (fdatasync(descriptor_) != 0) throw Error(path_ + ": can't be brought to the disk: " + reason(errno));
+  if (sync_file(descriptor_, true) != 0) throw Error(path_ + ": can't be brought to the disk: " + reason(errno));
 }
 
 void TextFile::close() {

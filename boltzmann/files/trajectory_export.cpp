@@ -87,8 +87,7 @@ std::vector<std::string> names_of(TrajectoryReader const& reader) {
 void need_ensemble(TrajectoryReader const& reader, std::string const& name) {
   auto const names = names_of(reader);
   if (std::find(names.begin(), names.end(), name) == names.end())
-    throw Error(fmt::format("there is no ensemble '{}' in the trajectory; it has {}{}", name, join(names),
-                            did_you_mean(name, names)));
+    throw Error(fmt::format("there is no ensemble '{}' in the trajectory{}", name, choices(name, names, "it has")));
 }
 
 struct Chosen {
@@ -123,8 +122,7 @@ std::vector<Chosen> choose(TrajectoryReader const& reader, ExportOptions const& 
         if (std::find(known.begin(), known.end(), field.name) == known.end()) known.push_back(field.name);
     }
     if (lacking.size() == chosen.size())
-      throw Error(fmt::format("there is no field '{}' in the trajectory; it has {}{}", name, join(known),
-                              did_you_mean(name, known)));
+      throw Error(fmt::format("there is no field '{}' in the trajectory{}", name, choices(name, known, "it has")));
     if (in_columns && !lacking.empty())
       throw Error(
           fmt::format("the field '{}' is not in {}, and this format has the same columns for all: choose an "
@@ -156,7 +154,7 @@ ExportFormat const& export_format(std::string const& path) {
       if (known == suffix || known == whole) return format;
       all.push_back(known);
     }
-  throw Error(fmt::format("'{}' ends in none of {}{}", path, join(all), did_you_mean(suffix, all)));
+  throw Error(fmt::format("no format of export is known by the ending of '{}'{}", path, choices(suffix, all)));
 }
 
 std::vector<std::size_t> chosen_frames(std::string_view text, std::size_t count) {

@@ -206,8 +206,7 @@ TrajectoryReader::StoredEnsemble const& TrajectoryReader::find(std::string const
     if (ensemble.name == name) return ensemble;
     names.push_back(ensemble.name);
   }
-  throw Error(fmt::format("{}: has no ensemble '{}'; it has {}{}", state_->file->path(), name, join(names),
-                          did_you_mean(name, names)));
+  throw Error(fmt::format("{}: has no ensemble '{}'{}", state_->file->path(), name, choices(name, names, "it has")));
 }
 
 TrajectoryReader::StoredField const& TrajectoryReader::find(StoredEnsemble const& ensemble,
@@ -217,8 +216,8 @@ TrajectoryReader::StoredField const& TrajectoryReader::find(StoredEnsemble const
     if (field.name == name) return field;
     names.push_back(field.name);
   }
-  throw Error(fmt::format("{}: its ensemble '{}' has no field '{}'; it has {}{}", state_->file->path(), ensemble.name,
-                          name, join(names), did_you_mean(name, names)));
+  throw Error(fmt::format("{}: its ensemble '{}' has no field '{}'{}", state_->file->path(), ensemble.name, name,
+                          choices(name, names, "it has")));
 }
 
 std::uint64_t TrajectoryReader::checksum(std::size_t frames) const {

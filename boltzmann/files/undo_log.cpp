@@ -1,5 +1,6 @@
 // Records of pages.
 #include <boltzmann/files/checksum.hpp>
+#include <boltzmann/files/disk_sync.hpp>
 #include <boltzmann/files/text_file.hpp>
 #include <boltzmann/files/undo_log.hpp>
 
@@ -105,11 +106,11 @@ UndoLog::~UndoLog() {
 }
 
 void UndoLog::close() {
-  if (descriptor_ < 0 || fdatasync(descriptor_) != 0) return;
+  if (descriptor_ < 0 || sync_file(descriptor_, true, true) != 0) return;
   head_.closed = 1;
   write_head();
   if (descriptor_ < 0) return;
-  fdatasync(descriptor_);
+  sync_file(descriptor_, true, true);
   ::close(std::exchange(descriptor_, -1));
 }
 

@@ -28,8 +28,7 @@ UnitChange::UnitChange(std::string const& wanted, ExportFormat const& format, Tr
   if (auto words = unit_style_names(); !wanted.empty() && wanted != "run") {
     words.emplace_back("run");
     if (std::find(words.begin(), words.end(), wanted) == words.end())
-      throw Error(
-          fmt::format("there are no units '{}'; there are {}{}", wanted, join(words), did_you_mean(wanted, words)));
+      throw Error(fmt::format("there are no units '{}'{}", wanted, choices(wanted, words)));
   }
   if (format.own_units && !wanted.empty())
     throw Error(fmt::format("a file of format {} is in {}; leave out the units", format.name, format.own_units->doc));

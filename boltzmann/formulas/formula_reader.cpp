@@ -368,9 +368,9 @@ class Reader {
       auto known = formula_functions();
       if (names_.sums)
         for (auto const& one : sums_only) known.emplace_back(one.name);
-      throw FormulaError(begin, value_of(found) ? fmt::format("'{}' is no function; products need a '*'", quoted(found))
-                                                : fmt::format("unknown function '{}'; there are {}{}", quoted(found),
-                                                              join(known), did_you_mean(found, known)));
+      throw FormulaError(begin, value_of(found)
+                                    ? fmt::format("'{}' is no function; products need a '*'", quoted(found))
+                                    : fmt::format("unknown function '{}'{}", quoted(found), choices(found, known)));
     }
     if (auto const value = value_of(found)) return *value;
     if (function) throw FormulaError(begin, fmt::format("the function '{}' needs parentheses: {}(...)", found, found));
@@ -400,7 +400,7 @@ class Reader {
     if (hint.empty() && found == "e") hint = "; powers of e are exp(x)";
     if (hint.empty() && names_.with_parameters && found.find('.') == std::string::npos)
       hint = fmt::format("; a number of your own stands in parameters = {{ {} = 1 }}", quoted(found));
-    return {begin, fmt::format("unknown name '{}'; there are {}{}", name, some_of(known), hint)};
+    return {begin, fmt::format("unknown name '{}'{}", name, choices_with(hint, known))};
   }
   std::optional<FormulaValue> value_of(std::string const& name) {
     if (auto const at = names_.values.find(name); at != names_.values.end()) return at->second;

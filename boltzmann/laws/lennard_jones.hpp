@@ -10,6 +10,7 @@ namespace boltzmann {
 struct LennardJones {
   static constexpr Symmetry symmetry = Symmetry::antisymmetric;
   static constexpr bool positions_alone = true;
+  static constexpr double r0_of_sigma = 1.122462048309373;  ///< 2^(1/6)
 
   double depth;
   double r0;
@@ -22,8 +23,14 @@ struct LennardJones {
                                 .typed = TypedLawText("depth*((r0/r)^12 - 2*(r0/r)^6)")};
   static constexpr auto parameters() {
     return std::tuple{
-        ParameterOf{&LennardJones::depth, {"depth", dimensions::energy, "depth of the well", not_negative}},
-        ParameterOf{&LennardJones::r0, {"r0", dimensions::length, "distance of the minimum: 2^(1/6) sigma", positive}}};
+        ParameterOf{&LennardJones::depth,
+                    also({"depth", dimensions::energy, "depth of the well", not_negative}, "epsilon")},
+        ParameterOf{&LennardJones::r0,
+                    also({"r0", dimensions::length, "distance of the minimum", positive}, "sigma", r0_of_sigma)}};
+  }
+  /// The same law in the other convention, 4 epsilon [(sigma/r)^12 - (sigma/r)^6].
+  static constexpr LennardJones of_sigma(double epsilon, double sigma) {
+    return {.depth = epsilon, .r0 = r0_of_sigma * sigma};
   }
 
   template <class P, class Q>

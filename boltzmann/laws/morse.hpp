@@ -25,9 +25,10 @@ struct Morse {
                                 .typed = TypedLawText("depth*((1 - exp(-a*(r - r0)))^2 - 1)")};
   static constexpr auto parameters() {
     return std::tuple{
-        ParameterOf{&Morse::depth, {"depth", dimensions::energy, "depth of the well", not_negative}},
+        ParameterOf{&Morse::depth, also({"depth", dimensions::energy, "depth of the well", not_negative}, "D")},
         ParameterOf{&Morse::r0, {"r0", dimensions::length, "distance of the minimum", positive}},
-        ParameterOf{&Morse::a, {"a", dimensions::wave_number, "steepness: 1/a is the width of the well", positive}}};
+        ParameterOf{&Morse::a, also({"a", dimensions::wave_number, "steepness: 1/a is the width of the well", positive},
+                                    "alpha")}};
   }
 
   template <class P, class Q>

@@ -65,10 +65,19 @@ struct Parameter {
   NumberRange range = any_number;
   std::string_view default_text = {};  ///< as a scenario would write it; empty: required, where not unlimited
   DefaultIn default_in = DefaultIn::all;
-  bool unlimited = false;  ///< infinity is allowed, and is the default
-  bool axial = false;      ///< of a vector: that of a rotation, which in 2D is one number, out of the plane
-  bool vector = false;     ///< one number for each dimension of the space
+  bool unlimited = false;      ///< infinity is allowed, and is the default
+  bool axial = false;          ///< of a vector: that of a rotation, which in 2D is one number, out of the plane
+  bool vector = false;         ///< one number for each dimension of the space
+  std::string_view also = {};  ///< another word for it in scenarios: "sigma" of r0; empty: none
+  double also_times = 1;       ///< the parameter is that word's value times this
 };
+
+/// The parameter with another word for it.
+constexpr Parameter also(Parameter parameter, std::string_view word, double times = 1) {
+  parameter.also = word;
+  parameter.also_times = times;
+  return parameter;
+}
 
 /// A parameter and the member of the struct that it is. `static constexpr auto parameters()` gives a tuple of these.
 template <class T, class Value>

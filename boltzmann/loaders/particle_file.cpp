@@ -96,7 +96,7 @@ ParticleFileFormat const& format_of(std::string const& path, std::string const& 
     throw Error(
         fmt::format("{}: neither its name nor its first lines show a format; write format = \"{}\" (there are {})",
                     path, names.front(), join(names)));
-  throw Error(fmt::format("there is no format '{}'; there are {}{}", name, join(names), did_you_mean(name, names)));
+  throw Error(fmt::format("there is no format '{}'{}", name, choices(name, names)));
 }
 
 // ASE's own units: energies in eV, masses in amu, so that times are in angstrom sqrt(amu/eV), 10.18 fs.

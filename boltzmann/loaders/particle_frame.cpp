@@ -145,8 +145,7 @@ std::size_t count_species(ParticleFrame const& frame, std::string const& species
   for (auto const& [label, type] : frame.labels) all.push_back(label);
   std::sort(all.begin(), all.end());
   all.erase(std::unique(all.begin(), all.end()), all.end());
-  throw Error(fmt::format("the file has no particle of species '{}'; it has {}{}", species, some_of(all),
-                          did_you_mean(species, all)));
+  throw Error(fmt::format("the file has no particle of species '{}'{}", species, choices(species, all, "it has")));
 }
 
 std::size_t frame_load(AnyEnsemble& ensemble, ParticleFrame const& frame, FrameOptions const& options) {

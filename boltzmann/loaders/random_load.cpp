@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <optional>
 #include <vector>
 
@@ -69,6 +70,32 @@ double minimum_distance_of(AnyEnsemble const& ensemble, Box const& box, RandomLo
   return distance_for_packing(box, ensemble.size(), fraction);
 }
 
+/// Particles that are there already, in cells.
+std::deque<PlacedParticles> placed_before(Box const& box, RandomLoadOptions const& options) {
+  std::deque<PlacedParticles> all;
+  double const distance = options.distance_to_others;
+  if (!(distance >= 0) || !std::isfinite(distance))
+    throw Error(fmt::format("random load: the distance to others must not be negative, it is {}", distance));
+  if (distance == 0) return all;
+  Box const& space = options.space ? *options.space : box;
+  if (space.sheared()) throw Error("random load: in a sheared box no distance to other particles can be kept");
+  for (auto const* ensemble : options.others) {
+    check_dimension(*ensemble, space, "random load");
+    if (ensemble->size() == 0) continue;
+    all.emplace_back(*ensemble, space, distance);
+    for (std::size_t i = 0; i < ensemble->size(); ++i) all.back().add(i);
+  }
+  return all;
+}
+
+[[noreturn]] void refuse_occupied(AnyEnsemble const& ensemble, double distance, std::size_t i) {
+  throw Error(
+      fmt::format("random load: in {} draws no place was found for particle {} of {} at a distance of {} from the "
+                  "particles that are "
+                  "there; take a smaller distance or fewer particles",
+                  longest_search, i, ensemble.size(), distance));
+}
+
 }  // namespace
 
 void check_packing(double fraction, int dimension) {
@@ -101,21 +128,29 @@ void random_load(AnyEnsemble& ensemble, Box const& box, RandomLoadOptions const&
   std::optional<PlacedParticles> placed;
   std::optional<FreeBlocks> blocks;  // once it has become difficult
   if (keep_apart) placed.emplace(ensemble, box, minimum_distance);
+  auto const before = placed_before(box, options);
   std::uint64_t const key = ensemble_seed(options.seed, ensemble.name(), "random");
   for (std::size_t i = 0; i < ensemble.size(); ++i) {
     Stream stream(key, 0, i, Purpose::position);
     std::array<double, 3> x{};
-    auto const there = [&](double const* at) { return allowed(box, at) && (!options.where || options.where(at)); };
+    auto const there = [&](double const* at) {
+      return allowed(box, at) && (!options.where || options.where(at)) &&
+             std::all_of(before.begin(), before.end(), [&](PlacedParticles const& one) { return one.free(at); });
+    };
     bool found = false;
     for (int draws = 0; draws < longest_search && !found && !blocks; ++draws) {
       for (int a = 0; a < box.dimension(); ++a) x[a] = on_axis(box, a, stream.uniform());
       found = there(x.data()) && (!placed || placed->free(x.data()));
     }
+    if (!found && !keep_apart && !before.empty()) refuse_occupied(ensemble, options.distance_to_others, i);
     if (!found && !keep_apart)
       throw Error(fmt::format("random load: {} no place for particle {} of '{}'",
                               options.where ? "'where' and regions leave" : "the regions leave", i, ensemble.name()));
     if (!found && !blocks) blocks.emplace(box, *placed, minimum_distance, ensemble.size());
-    if (!found && !blocks->draw(stream, there, x.data())) refuse_full_box(ensemble, box, minimum_distance, i);
+    if (!found && !blocks->draw(stream, there, x.data())) {
+      if (!before.empty()) refuse_occupied(ensemble, options.distance_to_others, i);
+      refuse_full_box(ensemble, box, minimum_distance, i);
+    }
     std::copy_n(x.data(), box.dimension(), ensemble.row(i));
     if (placed) placed->add(i);
   }

@@ -13,6 +13,7 @@
 #include <functional>
 #include <limits>
 #include <string_view>
+#include <vector>
 
 namespace boltzmann {
 
@@ -21,6 +22,11 @@ struct RandomLoadOptions {
   double packing_fraction = 0;  ///< instead: of the box, which rods, discs or spheres as wide as that fill
   std::uint64_t seed = 1;
   std::function<bool(double const*)> where{};  ///< of a place, only where it is true; without it everywhere
+  /// Particles that are there already, which new ones keep this distance from, by nearest images in `space` (null: the
+  /// box). Error if no place is found in 20,000 draws, or the space is sheared.
+  std::vector<AnyEnsemble const*> others{};
+  double distance_to_others = 0;
+  Box const* space = nullptr;
 };
 
 /// Positions uniform in the box, outside of the regions that keep particles out and inside those that keep them in, and

@@ -1,6 +1,8 @@
 // Field look-up by name, for everything that is told a field as a word.
 #include <boltzmann/particles/ensemble.hpp>
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace boltzmann {
@@ -64,14 +66,23 @@ Field const& AnyEnsemble::field(std::string_view name) const {
   }
   std::string hint = did_you_mean(name, names);
   if (hint.empty() && named < doubles_) hint = "; its class holds more, which its fields() does not name";
-  throw Error("ensemble '" + name_ + "' of class " + class_name_ + " has no field '" + std::string(name) +
-              "'; it has " + join(names) + hint);
+  throw Error("ensemble '" + name_ + "' of class " + class_name_ + " has no field '" + std::string(name) + "'" +
+              choices_with(hint, names, "it has"));
 }
 
 std::vector<double> AnyEnsemble::column(Field const& field, int component) const {
   std::vector<double> values(size_);
   for (std::size_t i = 0; i < size_; ++i) values[i] = row(i)[field.offset + component];
   return values;
+}
+
+void check_masses(AnyEnsemble const& ensemble) {
+  Field const* const mass = ensemble.find_field("mass");
+  if (!mass) return;
+  for (std::size_t i = 0; i < ensemble.size(); ++i)
+    if (double const of = ensemble.row(i)[mass->offset]; !(of > 0))
+      throw Error(
+          fmt::format("mass: {} of particle {} of '{}' is out of range; it must be positive", of, i, ensemble.name()));
 }
 
 }  // namespace boltzmann

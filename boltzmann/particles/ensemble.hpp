@@ -127,6 +127,9 @@ class AnyEnsemble {
   Share const* share_ = nullptr;
 };
 
+/// Error, naming the particle, if a mass is not positive.
+void check_masses(AnyEnsemble const& ensemble);
+
 /// The particles of class P (for example Newton<2>, or your own class for doubles: Ion<double>). Behaves like a vector
 /// of P.
 template <class P>

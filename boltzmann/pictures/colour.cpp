@@ -142,8 +142,7 @@ Colour colour_named(std::string_view name) {
   auto is_digit = [](char c) { return std::isxdigit(static_cast<unsigned char>(c)) != 0; };
   if (name.size() == 7 && name[0] == '#' && std::all_of(name.begin() + 1, name.end(), is_digit))
     return hex(static_cast<unsigned>(std::stoul(std::string(name.substr(1)), nullptr, 16)));
-  throw Error("unknown colour '" + std::string(name) + "'; allowed are " + join(colour_names()) + " and #rrggbb" +
-              did_you_mean(name, colour_names()));
+  throw Error("unknown colour '" + std::string(name) + "'" + choices(name, colour_names(), "allowed are #rrggbb and"));
 }
 
 std::span<std::string const> colour_names() {
@@ -194,8 +193,7 @@ ColourMap colour_map_named(std::string_view name) {
   auto const names = colour_map_names();
   auto const found = std::find(names.begin(), names.end(), name);
   if (found == names.end())
-    throw Error("unknown colour map '" + std::string(name) + "'; allowed are " + join(names) +
-                did_you_mean(name, names));
+    throw Error("unknown colour map '" + std::string(name) + "'" + choices(name, names, "allowed are"));
   return static_cast<ColourMap>(found - names.begin());
 }
 

@@ -30,8 +30,7 @@ void Question::need_columns(char const* key, std::vector<std::string> const& wor
     if (columns.empty()) throw Error("a picture over time needs diagnoses, and none are recorded");
     for (auto const& word : words)
       if (std::find(columns.begin(), columns.end(), word) == columns.end())
-        throw Error("no diagnosis gives a column '" + word + "'; there are " + some_of(columns) +
-                    did_you_mean(word, columns));
+        throw Error("no diagnosis gives a column '" + word + "'" + choices(word, columns));
   });
 }
 

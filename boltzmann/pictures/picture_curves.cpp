@@ -35,8 +35,7 @@ std::vector<GatheredTable> gathered(std::vector<Diagnosis const*> const& diagnos
 
 std::size_t place_of(std::string const& name, std::vector<std::string> const& known, char const* what) {
   auto const found = std::find(known.begin(), known.end(), name);
-  if (found == known.end())
-    throw Error(fmt::format("{} '{}'; there are {}{}", what, name, some_of(known), did_you_mean(name, known)));
+  if (found == known.end()) throw Error(fmt::format("{} '{}'{}", what, name, choices(name, known)));
   return static_cast<std::size_t>(found - known.begin());
 }
 

@@ -75,7 +75,7 @@ void check_flow(Question const& question) {
       auto const names = flow_names(dimension);
       auto const name = flow_name(picture);
       if (std::find(names.begin(), names.end(), name) == names.end())
-        throw Error(fmt::format("a flow has no '{}'; it has {}{}", name, join(names), did_you_mean(name, names)));
+        throw Error(fmt::format("a flow has no '{}'{}", name, choices(name, names, "it has")));
     });
   question.on("streaklines", [&] {
     check_streaklines(picture, question.ensembles);

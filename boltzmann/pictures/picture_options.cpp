@@ -204,8 +204,8 @@ std::vector<std::string> const& drawing_names() {
 Drawing const& drawing_named(std::string_view name) {
   for (auto const& drawing : drawings())
     if (drawing.name == name) return drawing;
-  throw Error(fmt::format("unknown drawing '{}'; there are {}{}", name, join(drawing_names()),
-                          did_you_mean(name, drawing_names())));
+  throw Error(
+      fmt::format("unknown drawing '{}'{}", name, choices(name, drawing_names(), "there are", "bzm list drawings")));
 }
 
 }  // namespace boltzmann

@@ -282,9 +282,8 @@ void check_vectors(std::string const& vectors, std::vector<AnyEnsemble*> const& 
   if (vectors.empty()) return;
   auto const names = vector_names(ensembles);
   if (std::find(names.begin(), names.end(), vectors) == names.end())
-    throw Error(
-        "there is no vector '" + vectors + "' to draw arrows of; " +
-        (names.empty() ? "these particles have none" : "there are " + join(names) + did_you_mean(vectors, names)));
+    throw Error("there is no vector '" + vectors + "' to draw arrows of" +
+                (names.empty() ? "; these particles have none" : choices(vectors, names)));
 }
 
 void check_particles(Question const& question) {

@@ -76,6 +76,13 @@ double extent_of(std::vector<CloudSource> const& sources, Axis const& axis) {
   return high > low ? high - low : 1;
 }
 
+/// The ends of an axis are those of the region.
+void zoom(Axis& axis, std::vector<std::array<double, 2>> const& region, std::size_t number) {
+  if (number >= region.size()) return;
+  if (std::isfinite(region[number][0])) axis.low = region[number][0];
+  if (std::isfinite(region[number][1])) axis.high = region[number][1];
+}
+
 }  // namespace
 
 void check_phase_space(Question const& question) {
@@ -95,6 +102,9 @@ Canvas draw_phase_space(Scene& scene, std::string x, std::string y) {
     x_axis.low = scene.box().low(a);
     x_axis.high = scene.box().high(a);
   }
+  Axis y_axis = scene.axis(my.label, my.dimension);
+  zoom(x_axis, scene.picture.region, 0);
+  zoom(y_axis, scene.picture.region, 1);
   auto vx = scene.columns(x), vy = scene.columns(y);
   // In one dimension the colour of particles in space is their second axis.
   bool const in_space = scene.picture.drawing == "cartesian";
@@ -125,8 +135,7 @@ Canvas draw_phase_space(Scene& scene, std::string x, std::string y) {
   options.origin[0] = origin_of(scene, x, sources, 0);
   options.origin[1] = origin_of(scene, y, sources, 1);
   ParticleClouds clouds = particle_clouds(sources, options);
-  Canvas canvas =
-      boltzmann::draw_phase_space(std::move(clouds.clouds), x_axis, scene.axis(my.label, my.dimension), scene.title());
+  Canvas canvas = boltzmann::draw_phase_space(std::move(clouds.clouds), x_axis, y_axis, scene.title());
   canvas.equal_aspect(x.starts_with("position") && y.starts_with("position"));
   if (!colour.empty()) explain_values(canvas, scene, clouds);
   note_shown(canvas, clouds, !options.region.empty());

@@ -138,6 +138,12 @@ void Scene::keep_particles() {
   for (auto const* ensemble : ensembles) rows_.push_back(copy_rows(*ensemble));
 }
 
+std::array<double, 2> zoomed(std::array<double, 2> const& side, std::array<double, 2> const& region) {
+  std::array<double, 2> const part{std::max(side[0], region[0]), std::min(side[1], region[1])};
+  if (part[0] < part[1]) return part;
+  return std::isfinite(region[0]) && std::isfinite(region[1]) && region[0] < region[1] ? region : side;
+}
+
 void Scene::put_particles_back() {
   for (std::size_t e = 0; e < rows_.size(); ++e) restore_rows(rows_[e], *ensembles[e]);
 }
@@ -151,6 +157,7 @@ std::vector<std::array<double, 2>> Scene::shown_box(std::array<std::array<double
       auto const& [low, high] = reach[static_cast<std::size_t>(a)];
       side = {std::max(std::min(side[0], low), side[0] - room), std::min(std::max(side[1], high), side[1] + room)};
     }
+    if (static_cast<std::size_t>(a) < picture.region.size()) side = zoomed(side, picture.region[a]);
     sides.push_back(side);
   }
   return sides;

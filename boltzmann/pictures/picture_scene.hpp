@@ -105,6 +105,9 @@ struct Heading {
 Heading heading(std::string const& text);
 
 /// The meaning of a name that at least one of the ensembles knows; Error if none does.
+/// The part of a side that a region leaves; the region itself if they have nothing in common.
+std::array<double, 2> zoomed(std::array<double, 2> const& side, std::array<double, 2> const& region);
+
 QuantityMeaning meaning(std::vector<AnyEnsemble*> const& ensembles, std::string const& name,
                         UnitSystem const* units = nullptr);
 Values joined(std::vector<Values> const& parts);

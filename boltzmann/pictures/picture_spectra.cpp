@@ -22,8 +22,7 @@ WaveSpectrum const& recorded_waves(std::vector<Diagnosis const*> const& diagnose
       recorded.push_back(waves->quantity());
     }
   if (!recorded.empty())
-    throw Error("no diagnosis wave-spectrum records '" + quantity + "'; recorded is " + join(recorded) +
-                did_you_mean(quantity, recorded));
+    throw Error("no diagnosis wave-spectrum records '" + quantity + "'" + choices(quantity, recorded, "recorded is"));
   throw Error("a picture of the wave spectrum needs the diagnosis wave-spectrum, and is drawn when the run ends");
 }
 

@@ -26,8 +26,7 @@ std::size_t column_named(std::string const& word, CsvTable const& table) {
   std::vector<std::string> names;
   for (std::size_t c = 2; c < table.header.size(); ++c) names.push_back(heading(table.header[c]).name);
   auto const found = std::find(names.begin(), names.end(), word);
-  if (found == names.end())
-    throw Error("diagnoses.csv has no column '" + word + "'; it has " + some_of(names) + did_you_mean(word, names));
+  if (found == names.end()) throw Error("diagnoses.csv has no column '" + word + "'" + choices(word, names, "it has"));
   return 2 + static_cast<std::size_t>(found - names.begin());
 }
 

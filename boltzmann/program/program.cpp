@@ -86,8 +86,7 @@ Program::Program(int argc, char** argv, std::string folder) : folder_(std::move(
       names.push_back(option.name);
       if (option.name == name) found = &option;
     }
-    if (!found)
-      throw Error(fmt::format("unknown option '{}'; there are {}{}", name, join(names), did_you_mean(name, names)));
+    if (!found) throw Error(fmt::format("unknown option '{}'{}", name, choices(name, names)));
     bool const attached = name.size() < word.size();
     if (found->value.empty() && attached) throw Error(fmt::format("{} has no value", name));
     if (!found->value.empty() && !attached && i + 1 == argc)

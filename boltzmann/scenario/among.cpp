@@ -128,8 +128,8 @@ class Among {
       for (auto const& a : names_)
         for (auto const& b : names_) known = known || (a != b && entry.key == b + "-" + a);
       if (!known)
-        mistake(entry.place, fmt::format("{}: '{}' is not among {}, nor two of them with a - between{}", parameter,
-                                         entry.key, join(names_), did_you_mean(entry.key, allowed)));
+        mistake(entry.place, fmt::format("{}: '{}' is no ensemble, nor two of them with a - between{}", parameter,
+                                         entry.key, choices_with(did_you_mean(entry.key, allowed), names_)));
     }
   }
 

@@ -1,5 +1,6 @@
 // What there is, from the tables that the program itself works with.
 #include <boltzmann/boundaries/box.hpp>
+#include <boltzmann/core/foreign_words.hpp>
 #include <boltzmann/core/quantity_text.hpp>
 #include <boltzmann/diagnoses/derived.hpp>
 #include <boltzmann/diagnoses/diagnosis_catalogue.hpp>
@@ -458,7 +459,7 @@ std::vector<Named> listed(std::string const& kind) {
   for (auto const& section : sections)
     if (kind == section.name) return section.entries();
   auto const kinds = listed_kinds();
-  throw Error("nothing is listed as '" + kind + "'; there are " + join(kinds) + did_you_mean(kind, kinds));
+  throw Error("nothing is listed as '" + kind + "'" + choices(kind, kinds));
 }
 
 std::vector<std::string> places_of_key(std::string const& key) {
@@ -510,6 +511,18 @@ std::string catalogue_page(std::string const& given) {
   if (name == "formula" || name == "formulas") next(), show_formulas(page);
   if (given != name) next(), shown = show_unit(page, given) || shown;
   if (shown || show_key(page, name) || show_unit(page, name)) return page.text;
+  if (auto const term = foreign_term(given); !term.empty()) throw Error("nothing is called '" + given + "'; " + term);
+  std::string const plain = without_foreign_kind(given);
+  if (plain != given && plain != name) {
+    try {
+      return catalogue_page(plain);
+    } catch (Error const&) {  // told below, by the whole of its name
+    }
+    auto const near = near_name(plain);
+    throw Error("nothing is called '" + given + "'" +
+                (near.starts_with("; it is ") ? near : "; the page Coming from LAMMPS has a table of such words") +
+                " (bzm list shows all names)");
+  }
   throw Error("nothing is called '" + name + "'" + near_name(name) + " (bzm list shows all names)");
 }
 

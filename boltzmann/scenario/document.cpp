@@ -3,6 +3,7 @@
 #include <boltzmann/core/nesting.hpp>
 #include <boltzmann/core/toml_text.hpp>
 #include <boltzmann/scenario/document.hpp>
+#include <boltzmann/scenario/foreign_input.hpp>
 
 #include <fmt/format.h>
 // toml++ has assertions that fail for some texts that are no TOML, and calls letters such as an e with an accent in a
@@ -225,6 +226,10 @@ Item parse_document(std::string const& text, Mistakes& mistakes) {
     return {};
   }
   if (auto const at = not_utf8(text)) {
+    if (auto const foreign = foreign_input(text); !foreign.empty()) {
+      mistakes.add({}, foreign);
+      return {};
+    }
     mistakes.add(place_at(text, *at), fmt::format("byte 0x{:02x} is not UTF-8; a scenario is a text file in UTF-8",
                                                   static_cast<unsigned char>(text[*at])));
     return {};
@@ -236,7 +241,13 @@ Item parse_document(std::string const& text, Mistakes& mistakes) {
   try {
     return item_of(toml::parse(text));
   } catch (toml::parse_error const& error) {
-    mistakes.add(place_of(error.source()), syntax_message(std::string(error.description())));
+    Place const place = place_of(error.source());
+    if (auto const foreign = foreign_input(text); !foreign.empty())
+      mistakes.add({}, foreign);
+    else if (auto const quotes = value_without_quotes(text, place.line, place.column); !quotes.empty())
+      mistakes.add(place, quotes);
+    else
+      mistakes.add(place, syntax_message(std::string(error.description())));
     return {};
   }
 }
@@ -382,8 +393,8 @@ void assign(Item& document, std::string const& path, Item value, Place const& pl
           Entry const* name = at->elements[i].find("name");
           names.push_back(name && name->item.is(Item::Kind::text) ? name->item.text : std::to_string(i));
         }
-        return mistakes.add(place, fmt::format("there is no '{}' in {}, which has {}{}", step, so_far,
-                                               names.empty() ? "nothing" : join(names), did_you_mean(step, names)));
+        return mistakes.add(place,
+                            fmt::format("there is no '{}' in {}{}", step, so_far, choices(step, names, "it has")));
       }
     } else {
       return mistakes.add(place, fmt::format("{} is {}: it has no '{}'", so_far, describe(*at), step));

@@ -24,12 +24,19 @@ std::string example_of(Parameter const& parameter, bool is_vector, int space, Un
   Dimension const dimension = parameter.dimension.in(space);
   auto const units = example_units(dimension);
   std::string const number = parameter.range.contains(1) ? "1" : "1.4";
-  if (base.is_reduced() || units.empty()) return number;
+  if (base.is_reduced()) return number;
+  auto const own = base.display(dimension).unit;  // that of the scenario, where it has a name
+  try {
+    if (auto const one = parse_quantity("1 " + own); one.has_unit && one.dimension == dimension)
+      return fmt::format("\"{} {}\"", number, own);
+  } catch (Error const&) {
+  }
+  if (units.empty()) return number;
   auto const away = [&](std::string const& unit) {
     return std::abs(std::log(base.from_si(parse_quantity("1 " + unit).si, dimension)));
   };
-  auto const nearest = std::min_element(units.begin(), units.end(),
-                                        [&](auto const& a, auto const& b) { return away(a) < away(b); });
+  auto const nearest =
+      std::min_element(units.begin(), units.end(), [&](auto const& a, auto const& b) { return away(a) < away(b); });
   return fmt::format("\"{} {}\"", number, *nearest);
 }
 
@@ -63,7 +70,18 @@ std::vector<double> const& value_of(ParameterValues const& values, std::string_v
 
 OptionTable options_of(std::vector<Parameter> const& parameters) {
   OptionTable all;
-  for (auto const& parameter : parameters) all.add(option_of(parameter));
+  for (auto const& parameter : parameters) {
+    all.add(option_of(parameter));
+    if (parameter.also.empty()) continue;
+    Option other = option_of(parameter);
+    other.key = parameter.also;
+    other.needed = "";
+    other.otherwise = "";
+    other.doc = fmt::format(
+        "instead of `{0}`{1}", parameter.name,
+        parameter.also_times == 1 ? "" : fmt::format(", which is {:.7g} {}", parameter.also_times, parameter.also));
+    all.add(other);
+  }
   return all;
 }
 
@@ -78,13 +96,24 @@ std::optional<ParameterValues> read_parameters(Section& section, std::string_vie
     bool const is_vector = parameter.vector && (!parameter.axial || space == 3);
     Dimension const dimension = parameter.dimension.in(space);
     Item const* item = section.find(name);
+    std::string const also(parameter.also);
+    Item const* const other = also.empty() ? nullptr : section.find(also);
+    if (item && other) {
+      reading.mistake(other->place, fmt::format("{}: '{}' is given, too; leave one of them out", also, name));
+      continue;
+    }
+    if (other) {
+      if (auto const value = read_quantity(*other, also, dimension, reading.context, parameter.range))
+        values.push_back({name, {*value * parameter.also_times}});
+      continue;
+    }
     bool const shown = !parameter.unlimited && has_default(parameter, units.is_reduced());
     section.explain(option_of(parameter), shown ? std::string(parameter.default_text) : "",
                     space == 0 && parameter.dimension.by_space != 0 ? std::nullopt : std::optional(dimension));
     if (!item && !has_default(parameter, units.is_reduced())) {
-      reading.mistake(section.place(),
-                      fmt::format("{} needs '{}', {}; add e.g. {} = {}", owner, name, parameter.doc, name,
-                                  example_of(parameter, is_vector, space == 0 ? 3 : space, units)));
+      reading.mistake(section.place(), fmt::format("{} needs '{}'{}, {}; add e.g. {} = {}", owner, name,
+                                                   also.empty() ? "" : " (or '" + also + "')", parameter.doc, name,
+                                                   example_of(parameter, is_vector, space == 0 ? 3 : space, units)));
     } else if (!item) {
       values.push_back(
           {name, std::vector<double>(is_vector ? static_cast<std::size_t>(std::max(space, 1)) : 1,

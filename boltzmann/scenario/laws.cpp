@@ -100,7 +100,7 @@ LawInfo const& law_info(std::string_view name) {
   if (LawInfo const* law = find_law(name)) return *law;
   std::vector<std::string> names;
   for (auto const& law : scenario_laws()) names.emplace_back(law.name);
-  throw Error(fmt::format("unknown law '{}'{}; there are {}", name, did_you_mean(name, names), join(names)));
+  throw Error(fmt::format("unknown law '{}'{}", name, choices(name, names, "there are", "bzm list laws")));
 }
 
 void install_pairs(PairScheme& scheme, LawInfo const& law, ParameterValues const& parameters, LawUse use,

@@ -4,6 +4,7 @@
 #include <boltzmann/files/trajectory.hpp>
 #include <boltzmann/loaders/lattice.hpp>
 #include <boltzmann/loaders/particle_file.hpp>
+#include <boltzmann/loaders/random_load.hpp>
 #include <boltzmann/loaders/sinusoidal_load.hpp>
 #include <boltzmann/scenario/field_formulas.hpp>
 #include <boltzmann/scenario/load_options.hpp>
@@ -35,6 +36,8 @@ class Loader {
   std::optional<double> volume() const { return volume_; }
   /// Error if the lower rooms refuse.
   void load(AnyEnsemble& particles);
+  /// How the same particles are placed at a distance from others; null: they have places of their own.
+  PlaceAgain place_again() const;
 
   /// Whether loading sets a field.
   bool sets(std::string_view field) const;
@@ -71,6 +74,7 @@ class Loader {
   double read_random();
   Box part_of_box() const;
   void load_random(AnyEnsemble& particles);
+  RandomLoadOptions random_options() const;
   void load_quiet(AnyEnsemble& particles);
   double read_wave();
   void load_sinusoidal(AnyEnsemble& particles);
@@ -116,6 +120,8 @@ class Loader {
 };
 
 /// Whether this machine has the memory for so many particles of a class; if not, a mistake.
+/// Why there can't be so many particles with rows of this size, "... particles would need ..."; empty if there can.
+std::string too_many(double count, std::size_t row_bytes);
 bool fits_memory(double count, ClassVariant const& variant, Place const& place, Reading& reading);
 
 /// A wave to be added to the velocities.

@@ -1,5 +1,6 @@
 // The words are a table of a document without a file, and read as one.
 #include <boltzmann/core/toml_text.hpp>
+#include <boltzmann/diagnoses/derived.hpp>
 #include <boltzmann/pictures/picture_options.hpp>
 #include <boltzmann/scenario/picture_words.hpp>
 #include <boltzmann/scenario/read_options.hpp>
@@ -37,11 +38,26 @@ bool shows(Picture plan, PictureWords const& words) {
   });
 }
 
+/// Plain numbers have been read as lengths; in a phase space they are in the units of its two axes.
+void region_on_axes(Picture& picture, Item const& region, ScenarioSimulation const& run) {
+  if (picture.drawing != "phase-space" || run.ensembles.empty()) return;
+  std::string const names[2] = {picture.x.empty() ? "position.x" : picture.x,
+                                picture.y.empty() ? "velocity.x" : picture.y};
+  double const of_length = run.units.display(dimensions::length).factor;
+  for (std::size_t a = 0; a < picture.region.size() && a < 2; ++a) {
+    double const factor =
+        of_length / run.units.display(quantity_meaning(*run.ensembles.front(), names[a]).dimension).factor;
+    for (std::size_t end = 0; end < 2; ++end)
+      if (region.elements[a].elements[end].is_number()) picture.region[a][end] *= factor;
+  }
+}
+
 }  // namespace
 
-Picture picture_by_words(ScenarioSimulation const& run, PictureWords const& words) {
+Picture picture_by_words(ScenarioSimulation const& run, PictureWords const& words, PlainNumbers plain_numbers) {
   Mistakes mistakes("");
   ReadContext context{mistakes, run.units, ""};
+  context.plain_as_shown = plain_numbers == PlainNumbers::shown;
   Item table;
   std::string drawing;
   for (auto const& [key, text] : words) {
@@ -71,6 +87,7 @@ Picture picture_by_words(ScenarioSimulation const& run, PictureWords const& word
                   return shown_dimension(picture, ensembles, {mesh_fields_of(run.simulation->schemes()), {}});
                 }});
   section.finish();
+  if (context.plain_as_shown && section.has("region")) region_on_axes(picture, *section.item("region"), run);
   check_picture_keys(section, picture, run.box().dimension(), &run.box());
   if (!mistakes.none()) throw ScenarioErrors(mistakes.lines());
   return picture;

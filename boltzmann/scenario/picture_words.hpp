@@ -14,8 +14,10 @@ using PictureWords = std::vector<std::pair<std::string, std::string>>;
 
 /// The first picture of a run that has the drawing and the quantities which the words ask for (any, if they ask for none),
 /// else the first with the drawing, but for the ends of its values, with what they say of it; a plain one if the run has
-/// none. Units are those of the run. ScenarioErrors, "--low 1 kg: ...", with all
-/// that is wrong.
-Picture picture_by_words(ScenarioSimulation const& run, PictureWords const& words);
+/// none. `plain`: what numbers without a unit count: the base's units, or those that pictures show.
+/// ScenarioErrors, "--low 1 kg: ...", with all that is wrong.
+enum class PlainNumbers { base, shown };
+Picture picture_by_words(ScenarioSimulation const& run, PictureWords const& words,
+                         PlainNumbers plain = PlainNumbers::base);
 
 }  // namespace boltzmann

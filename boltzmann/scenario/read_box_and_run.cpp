@@ -102,9 +102,7 @@ ReadEnsemble* Reading::ensemble(Item const& word, std::string_view key) {
   // One whose own name could not be read may be the one that is meant.
   for (auto const& e : ensembles)
     if (e.name.empty()) return nullptr;
-  mistake(word.place,
-          fmt::format("{}: there is no ensemble '{}'; there {} {}{}", key, *name, names.size() == 1 ? "is" : "are",
-                      names.empty() ? "none" : join(names), did_you_mean(*name, names)));
+  mistake(word.place, fmt::format("{}: there is no ensemble '{}'{}", key, *name, choices(*name, names)));
   return nullptr;
 }
 
@@ -203,8 +201,8 @@ void read_shear(Section& box, Reading& reading) {
 
 void read_box(Section& document, Reading& reading) {
   Item const* table = find_table(document, "box");
-  if (!document.has("box"))
-    reading.mistake({}, "there is no [box]; add e.g. [box] low = [0, 0], high = [10, 10], boundary = \"periodic\"");
+  if (!document.has("box") && !document.other_capitals("box"))
+    reading.mistake({}, "there is no [box]; add one with e.g. low = [0, 0] and high = [10, 10]");
   if (!table) return;
   Section section(*table, "[box]", reading.context);
   section.explain_said(box_options());
@@ -227,7 +225,8 @@ void read_box(Section& document, Reading& reading) {
 
 void read_run(Section& document, Reading& reading) {
   Item const* table = find_table(document, "run");
-  if (!document.has("run")) reading.mistake({}, "there is no [run]; add e.g. [run] step = 0.01, steps = 1000");
+  if (!document.has("run") && !document.other_capitals("run"))
+    reading.mistake({}, "there is no [run]; add one with e.g. step = 0.01 and steps = 1000");
   ReadRun& run = reading.run;
   run.cutoff_known = table && (!table->find("cutoff"));
   if (!table) return;

@@ -259,8 +259,8 @@ class ClassReader {
       std::string const whole = fmt::format("{}.{}", key, entry.key);
       if (base_ && !is_one_of(entry.key, names)) {
         if (!fields_known_) continue;
-        mistake(entry.place, fmt::format("{}: class {} has no such field; it has {}{}", whole, derived_.name,
-                                         join(names), did_you_mean(entry.key, names)));
+        mistake(entry.place, fmt::format("{}: class {} has no such field{}", whole, derived_.name,
+                                         choices(entry.key, names, "it has")));
         continue;
       }
       if (auto text = formula_of(entry.item, whole)) {
@@ -433,8 +433,8 @@ std::vector<AnyEnsemble*> neighbours_of(ReadNeighbourField const& around, Readin
   auto const names = reading.ensemble_names();
   for (auto const& name : around.among)
     if (!is_one_of(name, names)) {
-      reading.mistake(around.among_place, fmt::format("of: there is no ensemble '{}'; there are {}{}", quoted(name),
-                                                      join(names), did_you_mean(name, names)));
+      reading.mistake(around.among_place,
+                      fmt::format("of: there is no ensemble '{}'{}", quoted(name), choices(name, names)));
       among.clear();
     }
   return among;

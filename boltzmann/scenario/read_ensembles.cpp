@@ -52,7 +52,7 @@ class EnsembleReader {
   }
 
   /// More particles of an ensemble, under a name of their own.
-  std::unique_ptr<AnyEnsemble> read_more(ReadEnsemble const& of, std::string const& name) {
+  std::unique_ptr<AnyEnsemble> read_more(ReadEnsemble const& of, std::string const& name, PlaceAgain& again) {
     addition_ = true;
     read_options(section_, ensemble_options().only({{"number"}}), &options_, {.dimension = reading_.dimension});
     if (Item const* item = section_.item("number"); item && item->is(Item::Kind::integer) && item->integer == 0)
@@ -66,6 +66,7 @@ class EnsembleReader {
     read_particles_of_class();
     section_.finish();
     complete();
+    if (loader_ && right()) again = loader_->place_again();
     return right() ? std::move(made_) : nullptr;
   }
 
@@ -459,18 +460,19 @@ void note_species(Reading& reading) {
 }  // namespace
 
 std::shared_ptr<AnyEnsemble const> read_addition(Item const& table, ReadEnsemble const& to, std::string const& name,
-                                                 Reading& reading) {
+                                                 Reading& reading, PlaceAgain& again) {
   std::size_t const before = reading.context.mistakes.count();
   for (char const* key : {"material", "heat_capacity"})
     if (Entry const* own = table.find(key))
       reading.mistake(own->place, fmt::format("{}: it is that of '{}', whose particles are added", key, to.name));
   Item const otherwise = alike(table, to, reading);
   if (reading.context.mistakes.count() != before) return nullptr;
-  return EnsembleReader(table, "add", reading, &otherwise).read_more(to, name);
+  return EnsembleReader(table, "add", reading, &otherwise).read_more(to, name, again);
 }
 
 void read_ensembles(Section& document, Reading& reading) {
-  if (!document.has("ensembles")) reading.mistake({}, "there are no [[ensembles]]; a scenario needs particles");
+  if (!document.has("ensembles") && !document.other_capitals("ensembles"))
+    reading.mistake({}, "there are no [[ensembles]]; a scenario needs particles");
   auto const tables = find_tables(document, "ensembles");
   if (Item const* item = document.find("ensembles"); item && item->is(Item::Kind::array) && item->elements.empty())
     reading.mistake(item->place, "there are no [[ensembles]]; a scenario needs particles");

@@ -72,8 +72,8 @@ void read_settings(Item const& table, std::string const& before, Reading& readin
     if (!all_loaded(reading) || !reading.context.mistakes.none()) continue;  // what is meant may not have been read
     std::vector<std::string> paths;
     for (auto const& one : reading.settable) paths.push_back(one.path);
-    reading.mistake(entry.place, fmt::format("set: an event can't set '{}'; it can set {}{}", path,
-                                             paths.empty() ? "nothing here" : join(paths), did_you_mean(path, paths)));
+    reading.mistake(entry.place,
+                    fmt::format("set: an event can't set '{}'{}", path, choices(path, paths, "it can set")));
   }
 }
 
@@ -140,7 +140,18 @@ std::vector<Moved> read_moved(Section& section, Reading& reading) {
 struct Addition {
   AnyEnsemble* to;
   std::vector<std::shared_ptr<AnyEnsemble const>> particles;  // of each time
+  ClassVariant const* variant;
+  PlaceAgain again = {};
 };
+
+/// Puts them at this distance from all particles that are there.
+void append_apart(Addition const& added, AnyEnsemble const& more, double distance, Simulation const& simulation) {
+  auto const particles = added.variant->make(more.name(), more.size());
+  for (std::size_t i = 0; i < more.size(); ++i) std::copy_n(more.row(i), more.doubles(), particles->row(i));
+  std::vector<AnyEnsemble const*> const others(simulation.ensembles().begin(), simulation.ensembles().end());
+  added.again(*particles, simulation.schemes().front()->box(), others, distance);
+  append(*added.to, *particles);
+}
 
 /// `add` of event `number`.
 std::optional<Addition> read_added(Item const& add, Section& section, std::size_t number, std::int64_t times,
@@ -168,9 +179,10 @@ std::optional<Addition> read_added(Item const& add, Section& section, std::size_
     return refuse(on->place,
                   "nobody is there before, by whom the accuracy of [mesh] could choose it; say cells and "
                   "assignment instead");
-  Addition all{to->particles, {}};
+  Addition all{to->particles, {}, to->kind->in(reading.dimension)};
   for (std::int64_t k = 0; k < times; ++k) {
-    auto particles = read_addition(add, *to, fmt::format("{}, event {}, time {}", to->name, number, k), reading);
+    auto particles =
+        read_addition(add, *to, fmt::format("{}, event {}, time {}", to->name, number, k), reading, all.again);
     if (!particles) return std::nullopt;
     double const more = static_cast<double>(particles->size()) * static_cast<double>(times);
     if (!fits_memory(more + static_cast<double>(to->particles->size()), *to->kind->in(reading.dimension), add.place,
@@ -179,6 +191,18 @@ std::optional<Addition> read_added(Item const& add, Section& section, std::size_
     all.particles.push_back(std::move(particles));
   }
   return all;
+}
+
+/// Whether a distance to others can be kept.
+void check_distance(Section& section, Item const* add, Addition const* added, Reading& reading) {
+  if (!add) section.mistake("keep_distance", "it belongs to 'add'; leave it out");
+  if (!add || !added) return;
+  if (!added->again)
+    section.mistake("keep_distance", "it is of particles at random: add = { load = { kind = \"random\" } }");
+  if (add->is(Item::Kind::table) && add->find("formulas"))
+    section.mistake("keep_distance", "formulas are of the places that were drawn first; leave one of both out");
+  if (reading.box && reading.box->sheared())
+    section.mistake("keep_distance", "in a sheared box no distance to other particles can be kept; leave it out");
 }
 
 void read_event(Item const& table, std::size_t number, Reading& reading) {
@@ -209,6 +233,7 @@ void read_event(Item const& table, std::size_t number, Reading& reading) {
                     "of the file");
   std::optional<Addition> const added =
       add && !moves ? read_added(*add, section, number, options.times, reading) : std::nullopt;
+  if (section.has("keep_distance")) check_distance(section, add, added ? &*added : nullptr, reading);
   auto const moved = add ? std::vector<Moved>{} : read_moved(section, reading);
   for (char const* key : {"on", "where"})
     if (!moves && section.has(key) && !(add && std::string_view(key) == "on"))
@@ -230,10 +255,14 @@ void read_event(Item const& table, std::size_t number, Reading& reading) {
                                   for (auto const& set : settings) set(simulation);
                                 }});
     if (added)
-      reading.events.push_back(
-          {at, adding, [to = added->to, more = added->particles[static_cast<std::size_t>(time)]](Simulation& /*of*/) {
-             append(*to, *more);
-           }});
+      reading.events.push_back({at, adding,
+                                [added = *added, more = added->particles[static_cast<std::size_t>(time)],
+                                 distance = options.keep_distance](Simulation& simulation) {
+                                  if (distance > 0)
+                                    append_apart(added, *more, distance, simulation);
+                                  else
+                                    append(*added.to, *more);
+                                }});
     if (moves)
       reading.events.push_back(
           {at, passing, [=, k = reading.boltzmann_constant(), units = reading.context.units](Simulation& simulation) {

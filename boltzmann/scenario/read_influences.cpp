@@ -330,10 +330,12 @@ class InfluenceReader {
     Item const* item = section_.need(
         "law", "law = \"lennard-jones\", or energy = \"exp(-r)/r\" or influence = \"...\" of a law that is typed");
     if (!item) return refuse_other_words();
-    if (item->is(Item::Kind::text) && !find_law(item->text) && did_you_mean(item->text, names).empty())
-      return reading_.mistake(item->place, fmt::format("unknown law '{}'; there are {}; others are typed: energy = "
-                                                       "\"exp(-r)/r\", or influence = \"...\" (bzm new --law)",
-                                                       quoted(item->text), join(names)));
+    if (item->is(Item::Kind::text) && !find_law(item->text) && hint_for(item->text, names).empty())
+      return reading_.mistake(
+          item->place,
+          fmt::format("unknown law '{}'; others are typed: energy = \"exp(-r)/r\", or influence = \"...\" (bzm new "
+                      "--law){}",
+                      quoted(item->text), choices_with("", names, "there are", "bzm list laws")));
     auto const name = read_word(*item, "law", names, reading_.context);
     if (!name) return;
     law_ = find_law(*name);

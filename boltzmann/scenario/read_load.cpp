@@ -26,9 +26,7 @@ namespace {
 constexpr double max_particles = 1e9;
 
 /// What so many particles take, with their influences, the schemes' copies and lists.
-double memory_of(double count, ClassVariant const& variant) {
-  return count * (3.0 * static_cast<double>(variant.row_bytes) + 200);
-}
+double memory_of(double count, std::size_t row_bytes) { return count * (3.0 * static_cast<double>(row_bytes) + 200); }
 
 /// What `mode` or `wave_number` say.
 Wave wave_of(LoadOptions const& options, Section& section, Reading& reading) {
@@ -44,14 +42,20 @@ Wave wave_of(LoadOptions const& options, Section& section, Reading& reading) {
 
 }  // namespace
 
-bool fits_memory(double count, ClassVariant const& variant, Place const& place, Reading& reading) {
+std::string too_many(double count, std::size_t row_bytes) {
   double const machine = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
-  double const needed = memory_of(count, variant), gib = 1024.0 * 1024 * 1024;
-  if (count <= max_particles && needed <= machine) return true;
-  reading.mistake(place, fmt::format("{:.0f} particles would need about {:.0f} GiB of memory; this machine has {:.0f} "
-                                     "GiB, and at most 1000000000 are allowed",
-                                     count, std::ceil(needed / gib), machine / gib));
-  return false;
+  double const needed = memory_of(count, row_bytes), gib = 1024.0 * 1024 * 1024;
+  if (count <= max_particles && needed <= machine) return "";
+  return fmt::format(
+      "{:.0f} particles would need about {:.0f} GiB of memory; this machine has {:.0f} GiB, and at most "
+      "1000000000 are allowed",
+      count, std::ceil(needed / gib), machine / gib);
+}
+
+bool fits_memory(double count, ClassVariant const& variant, Place const& place, Reading& reading) {
+  auto why = too_many(count, variant.row_bytes);
+  if (!why.empty()) reading.mistake(place, std::move(why));
+  return why.empty();
 }
 
 VelocityRipple read_velocity_ripple(Item const& item, Reading& reading) {
@@ -429,10 +433,37 @@ Box Loader::part_of_box() const {
   return Box(box.dimension(), low_, high_, boundaries);
 }
 
-void Loader::load_random(AnyEnsemble& particles) {
-  Box const& box = *reading_.box;
+RandomLoadOptions Loader::random_options() const {
   RandomLoadOptions options{.minimum_distance = options_.minimum_distance, .seed = reading_.run.seed};
   if (options_.packing_fraction && options.minimum_distance == 0) options.packing_fraction = *options_.packing_fraction;
+  return options;
+}
+
+PlaceAgain Loader::place_again() const {
+  if (!kind_ || kind_->name != "random" || !reading_.box) return nullptr;
+  auto options = random_options();
+  if (where_)
+    options.where = [where = std::make_shared<ParticleFormula>(*where_)](double const* at) {
+      return (*where)(at) != 0;
+    };
+  std::optional<Box> part;
+  if (section_.has("low") || section_.has("high")) {
+    part.emplace(part_of_box());
+    for (auto const& region : reading_.box->regions()) part->install(region);
+  }
+  return
+      [options, part](AnyEnsemble& particles, Box const& now, std::vector<AnyEnsemble const*> others, double distance) {
+        RandomLoadOptions again = options;
+        again.others = std::move(others);
+        again.distance_to_others = distance;
+        again.space = &now;
+        random_load(particles, part ? *part : now, again);
+      };
+}
+
+void Loader::load_random(AnyEnsemble& particles) {
+  Box const& box = *reading_.box;
+  RandomLoadOptions options = random_options();
   if (where_) options.where = [&](double const* place) { return is_wanted(place); };
   if (!section_.has("low") && !section_.has("high")) return random_load(particles, box, options);
   Box part = part_of_box();

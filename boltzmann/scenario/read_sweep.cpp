@@ -171,9 +171,7 @@ std::vector<std::string> read_columns(Item const& item, std::string_view key, Sw
     if (reading.diagnoses_known && std::find(names.begin(), names.end(), words[k]) == names.end()) {
       bool const own = item.is(Item::Kind::array) && item.elements.size() == words.size();
       reading.mistake(own ? item.elements[k].place : item.place,
-                      fmt::format("{}: no diagnosis gives a column '{}'; there {} {}{}", key, words[k],
-                                  names.size() == 1 ? "is" : "are", names.empty() ? "none" : some_of(names),
-                                  did_you_mean(words[k], names)));
+                      fmt::format("{}: no diagnosis gives a column '{}'{}", key, words[k], choices(words[k], names)));
     }
   if (words.empty() && (item.is(Item::Kind::text) || (item.is(Item::Kind::array) && item.elements.empty())))
     reading.mistake(item.place, fmt::format("{}: no column is named", key));
@@ -202,9 +200,8 @@ std::string read_right(Section& section, SweepPlan const& plan, Reading& reading
     names.push_back(key.path);
   }
   if (reading.diagnoses_known && !word.empty() && std::find(names.begin(), names.end(), word) == names.end())
-    reading.mistake(item->place,
-                    fmt::format("x: '{}' is neither a column of a diagnosis nor a key that varies; there are {}{}",
-                                word, some_of(names), did_you_mean(word, names)));
+    reading.mistake(item->place, fmt::format("x: '{}' is neither a column of a diagnosis nor a key that varies{}", word,
+                                             choices(word, names)));
   return word;
 }
 

@@ -277,10 +277,14 @@ void read_ensembles(Section& document, Reading& reading);
 /// Makes remove_drift and exact_temperature hold for the particles that move, with the degrees of freedom that they have
 /// in the simulation: frozen particles and rigid bonds have taken their part since the velocities were drawn.
 void settle_velocities(Reading& reading);
+/// Places particles anew, at a distance from others that are there.
+using PlaceAgain = std::function<void(AnyEnsemble& particles, Box const& now, std::vector<AnyEnsemble const*> others,
+                                      double distance)>;
 /// Particles for an ensemble that there is, made as `table` says (the key `add` of an event), and where it says nothing as
 /// the ensemble's own does. Random numbers are those of an ensemble of this `name`. Null, and mistakes, if it is wrong.
+/// `again` becomes how they are placed at a distance from others.
 std::shared_ptr<AnyEnsemble const> read_addition(Item const& table, ReadEnsemble const& to, std::string const& name,
-                                                 Reading& reading);
+                                                 Reading& reading, PlaceAgain& again);
 /// What an ensemble of this class is made of. Nothing, and mistakes, if it is missing or wrong.
 std::optional<BoundMaterial> read_material(Section& ensemble, ParticleClass const& kind, Reading& reading);
 /// Whether particles of this class have an internal energy of their own (the field "internal_energy").

@@ -116,12 +116,22 @@ void check_simulation(Reading& reading) {
   }
 }
 
+/// Whether a text of it names an influence.
+bool reads_influences(Item const& item) {
+  return item.text.find("influence") != std::string::npos ||
+         std::any_of(item.elements.begin(), item.elements.end(), reads_influences) ||
+         std::any_of(item.entries.begin(), item.entries.end(),
+                     [](Entry const& entry) { return reads_influences(entry.item); });
+}
+
 void build(Item& document, Reading& reading) {
   read_tables(document, reading);
   if (!reading.context.mistakes.none()) return;
   catch_errors(reading, reading.run.place, [&] { make_simulation(reading); });
   if (!reading.result->simulation) return;
   complete_simulation(reading);
+  if (Entry const* diagnoses = document.find("diagnoses"); diagnoses && reads_influences(diagnoses->item))
+    reading.result->simulation->observers_read_influences();
   check_simulation(reading);
   if (reading.context.mistakes.none()) settle_velocities(reading);
 }
@@ -186,7 +196,7 @@ std::unique_ptr<ScenarioSimulation> parse(std::string const& text, std::string c
   } catch (std::bad_alloc const&) {
     throw Error(fmt::format("{}: the scenario needs more memory than this machine has", file));
   }
-  if (!mistakes.none()) throw ScenarioErrors(mistakes.lines(), notes.absent());
+  if (!mistakes.none()) throw ScenarioErrors(mistakes.lines(), notes.absent(), notes.parameters());
   if (reading.result->sweep) reading.result->sweep->text = sweep;
   reading.result->resolved = write_document(document);
   reading.result->parameters = notes.parameters();
@@ -246,8 +256,9 @@ void add_diagnosis(std::unique_ptr<ScenarioSimulation>& scenario, ScenarioText c
   throw ScenarioErrors(mistakes.lines());
 }
 
-ScenarioErrors::ScenarioErrors(std::vector<std::string> all, std::vector<ScenarioParameter> keys)
-    : Error(all_lines(all)), lines(std::move(all)), absent(std::move(keys)) {}
+ScenarioErrors::ScenarioErrors(std::vector<std::string> all, std::vector<ScenarioParameter> keys,
+                               std::vector<ScenarioParameter> read)
+    : Error(all_lines(all)), lines(std::move(all)), parameters(std::move(read)), absent(std::move(keys)) {}
 
 ScenarioText read_scenario(std::string const& path) {
   namespace fs = std::filesystem;

@@ -29,9 +29,11 @@ class PairScheme;
 /// Every mistake of a scenario: one line each, `file:line:column: what was found; what is allowed; the nearest right
 /// word`.
 struct ScenarioErrors : Error {
-  explicit ScenarioErrors(std::vector<std::string> all, std::vector<ScenarioParameter> absent = {});
+  explicit ScenarioErrors(std::vector<std::string> all, std::vector<ScenarioParameter> absent = {},
+                          std::vector<ScenarioParameter> parameters = {});
   std::vector<std::string> lines;
-  std::vector<ScenarioParameter> absent;  ///< as in ScenarioSimulation, as far as the tables could be read
+  std::vector<ScenarioParameter> parameters;  ///< as in ScenarioSimulation, as far as they could be read
+  std::vector<ScenarioParameter> absent;      ///< as in ScenarioSimulation, as far as the tables could be read
 };
 
 /// A picture that a scenario asks for, or (by its name) a view in the window.

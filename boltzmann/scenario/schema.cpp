@@ -277,6 +277,8 @@ std::string influences() {
     for (auto const& parameter : law.parameters) {
       auto& doc = parameters[std::string(parameter.name)];
       doc += fmt::format("{}{}: {}", doc.empty() ? "" : "; ", law.name, parameter.doc);
+      if (!parameter.also.empty())
+        parameters[std::string(parameter.also)] = fmt::format("{}: instead of {}", law.name, parameter.name);
     }
   }
   replace(properties, "law", words(names, docs));

@@ -1,4 +1,5 @@
 // Reading values and saying what is wrong with them.
+#include <boltzmann/core/foreign_words.hpp>
 #include <boltzmann/core/quantity_text.hpp>
 #include <boltzmann/scenario/catalogue_pages.hpp>
 #include <boltzmann/scenario/section.hpp>
@@ -6,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <filesystem>
 
@@ -20,7 +22,24 @@ std::string wanted(Dimension dimension, UnitSystem const& unit_system) {
                      units.empty() ? "" : fmt::format(" (e.g. \"1.5 {}\")", units[0]));
 }
 
+bool same_but_for_capitals(std::string const& key, std::vector<std::string> const& words) {
+  auto const same = [](char a, char b) {
+    return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));
+  };
+  return std::any_of(words.begin(), words.end(), [&](std::string const& word) {
+    return std::equal(word.begin(), word.end(), key.begin(), key.end(), same);
+  });
+}
+
 }  // namespace
+
+/// A word that is only written with other capitals, one with a similar name, or what another program's word is here.
+std::string hint_for(std::string const& word, std::vector<std::string> const& allowed) {
+  std::string const near = did_you_mean(word, allowed);
+  if (near.starts_with("; it is ") || same_but_for_capitals(word, allowed)) return near;
+  auto const term = foreign_term(word);
+  return term.empty() ? near : "; " + term;
+}
 
 std::vector<std::string> axis_names(int dimension) {
   std::vector<std::string> names{"x", "y", "z"};
@@ -34,7 +53,7 @@ std::optional<double> read_quantity(Item const& item, std::string_view name, Dim
                                     NumberRange range) {
   double value = 0;
   if (item.is_number()) {
-    value = item.number;
+    value = item.number / (context.plain_as_shown ? context.units.display(dimension).factor : 1);
   } else if (item.is(Item::Kind::text)) {
     try {
       value = in_units(item.text, dimension, context.units);
@@ -130,8 +149,7 @@ std::optional<std::string> read_word(Item const& item, std::string_view name, st
   if (context.notes) context.notes->word(item, words);
   if (std::find(words.begin(), words.end(), *text) != words.end()) return text;
   context.mistakes.add(item.place,
-                       fmt::format("unknown {} '{}'; there {} {}{}", name, *text, words.size() == 1 ? "is" : "are",
-                                   words.empty() ? "none" : join(words), did_you_mean(*text, words)));
+                       fmt::format("unknown {} '{}'{}", name, *text, choices_with(hint_for(*text, words), words)));
   return std::nullopt;
 }
 
@@ -153,9 +171,24 @@ Item const* Section::find(std::string_view key) {
   return item(key);
 }
 
+bool Section::other_capitals(std::string_view key) {
+  if (has(key)) return false;
+  for (auto const& entry : table_.entries) {
+    if (!same_but_for_capitals(entry.key, {std::string(key)})) continue;
+    mistake(entry.place,
+            fmt::format("unknown {} '{}' in {}; did you mean '{}'?",
+                        entry.item.is(Item::Kind::table) || entry.item.is(Item::Kind::array) ? "table" : "key",
+                        entry.key, title_, key));
+    known_.push_back(entry.key);
+    return true;
+  }
+  return false;
+}
+
 Item const* Section::need(std::string_view key, std::string_view example) {
   Item const* item = find(key);
-  if (!item) mistake(table_.place, fmt::format("{} has no '{}'; add e.g. {}", title_, key, example));
+  if (!item && !other_capitals(key))
+    mistake(table_.place, fmt::format("{} has no '{}'; add e.g. {}", title_, key, example));
   return item;
 }
 
@@ -238,6 +271,13 @@ std::string rather_in(std::string const& key, std::string const& title) {
   return places.empty() || places.size() > 4 ? "" : "; it is a key of " + join(places);
 }
 
+/// "bzm show run" of [run].
+std::string where_told(std::string const& title) {
+  auto const begin = title.find_first_not_of('['), end = title.find(']');
+  if (begin == 0 || begin == std::string::npos || end == std::string::npos) return "";
+  return "bzm show " + title.substr(begin, end - begin);
+}
+
 }  // namespace
 
 void Section::finish() {
@@ -249,10 +289,11 @@ void Section::finish() {
       context_.notes->key(table_, told, context_.units);
   for (auto const& entry : table_.entries) {
     if (in(allowed_, entry.key) || in(known_, entry.key)) continue;
-    std::string const near = did_you_mean(entry.key, allowed_);
-    mistake(entry.place,
-            fmt::format("unknown {} '{}' in {}; allowed are {}{}", entry.item.is(Item::Kind::table) ? "table" : "key",
-                        entry.key, title_, join(allowed_), near.empty() ? rather_in(entry.key, title_) : near));
+    std::string const near = hint_for(entry.key, allowed_);
+    mistake(entry.place, fmt::format("unknown {} '{}' in {}{}", entry.item.is(Item::Kind::table) ? "table" : "key",
+                                     entry.key, title_,
+                                     choices_with(near.empty() ? rather_in(entry.key, title_) : near, allowed_,
+                                                  "allowed are", where_told(title_))));
   }
 }
 

@@ -22,11 +22,16 @@ namespace boltzmann {
 /// What all readers share.
 struct ReadContext {
   Mistakes& mistakes;
-  UnitSystem units;           ///< of the numbers to come
-  std::string folder;         ///< of the scenario file: where its other files are
-  KeyNotes* notes = nullptr;  ///< notes what has been read; null: nobody does
-  bool confined = false;      ///< overrides name only files in `folder`
+  UnitSystem units;             ///< of the numbers to come
+  std::string folder;           ///< of the scenario file: where its other files are
+  KeyNotes* notes = nullptr;    ///< notes what has been read; null: nobody does
+  bool confined = false;        ///< overrides name only files in `folder`
+  bool plain_as_shown = false;  ///< numbers without a unit are in the units that pictures show, not in the base's
 };
+
+/// What a message about an unknown word goes on with: "; did you mean 'x'?", or what another program's word is here; empty
+/// if nothing is known.
+std::string hint_for(std::string const& word, std::vector<std::string> const& allowed);
 
 /// A finite number in the base from 0.5 or "0.5 ps"; a mistake otherwise. `name` is the key.
 std::optional<double> read_quantity(Item const& item, std::string_view name, Dimension dimension, ReadContext& context,
@@ -77,6 +82,8 @@ class Section {
   void mark_used(std::string_view key) { known_.emplace_back(key); }
   /// Names a key that is allowed but read elsewhere.
   void allow(std::string_view key) { find(key); }
+  /// True, and a mistake, if the key is only there with other capitals.
+  bool other_capitals(std::string_view key);
 
   std::optional<double> quantity(std::string_view key, Dimension dimension, NumberRange range = any_number);
   std::optional<double> need_quantity(std::string_view key, Dimension dimension, std::string_view example,

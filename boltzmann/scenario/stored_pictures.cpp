@@ -13,13 +13,14 @@ namespace boltzmann {
 
 namespace fs = std::filesystem;
 
-StoredPictures::StoredPictures(ScenarioSimulation& scenario, std::string folder, PictureWords const& words)
+StoredPictures::StoredPictures(ScenarioSimulation& scenario, std::string folder, PictureWords const& words,
+                               PlainNumbers plain)
     : scenario_(scenario),
       folder_(std::move(folder)),
       title_(!scenario.title.empty() ? scenario.title : fs::absolute(folder_ + "/").parent_path().filename().string()),
       reader_(folder_ + "/trajectory.h5") {
   if (reader_.frames() == 0) throw Error("'" + folder_ + "/trajectory.h5' has no frames");
-  picture_ = picture_by_words(scenario, words);
+  picture_ = picture_by_words(scenario, words, plain);
   if (picture_.drawing == "wave-spectrum")
     throw Error(
         "a wave spectrum can't be drawn from a trajectory: it is drawn when the run ends, from what its diagnosis "

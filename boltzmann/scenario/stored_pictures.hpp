@@ -21,7 +21,8 @@ class StoredPictures {
  public:
   /// Pictures of the run in the folder; of `scenario`, which is that run (load_stored_run), particles and box are those
   /// of the frame that was drawn last. Error if the folder has no frames, or words ask for what can't be drawn of them.
-  StoredPictures(ScenarioSimulation& scenario, std::string folder, PictureWords const& words);
+  StoredPictures(ScenarioSimulation& scenario, std::string folder, PictureWords const& words,
+                 PlainNumbers plain = PlainNumbers::base);
 
   std::int64_t count() const { return static_cast<std::int64_t>(reader_.frames()); }
   std::int64_t step(std::int64_t frame) const { return reader_.steps()[static_cast<std::size_t>(frame)]; }

@@ -472,6 +472,9 @@ OptionTable make_event_options() {
           "with `temperature`: velocities are those relative to the common one, which stays, in any case");
   all.add("scale", &E::scale, number(dimensions::none), "velocities are multiplied by it");
   all.add("kick", &E::kick, vector(dimensions::velocity), "a velocity that is added");
+  all.add("keep_distance", &E::keep_distance, number(dimensions::length, not_negative),
+          "of what is added at random, from particles that are there: places are drawn again until they are that far, "
+          "20,000 times at most");
   all.at("at").needed = "\"5 ps\"";
   return all;
 }

@@ -112,6 +112,7 @@ struct EventOptions {
   std::optional<double> temperature, scale;
   std::optional<std::array<double, 3>> kick;
   bool subtract_drift = false;
+  double keep_distance = 0;
 };
 OptionTable const& event_options();
 

@@ -99,6 +99,8 @@ class Scheme {
   /// Fields of the particles that are not their own but found by this scheme (the density of smooth particles), for the
   /// state as it stands: observers see these. It changes nothing that the next step depends on.
   virtual void complete(double /*time*/) {}
+  /// Whether complete() finds this field.
+  virtual bool derives(AnyEnsemble const& /*ensemble*/, Field const& /*field*/) const { return false; }
   /// Energies and virial of the state as it stands: begin with EnergyAndVirial::known() if all of them can be given;
   /// else clear `unknown` or `no_virial` for what is given, and say in the other what is missing. Work and heat are
   /// the simulation's to fill.

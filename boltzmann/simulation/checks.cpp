@@ -23,6 +23,7 @@ void Simulation::check(bool added) {
   make_ready();
   if (!minimisation_) check_start(added);
   checked_ = true;
+  if (!begun_) checked_rows_ = checksum(false);
 }
 
 /// All that does not depend on the size of forces.

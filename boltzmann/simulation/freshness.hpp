@@ -59,6 +59,10 @@ class Freshness {
     running_ = true;
     return {running_};
   }
+  /// Whether influences that were kept hold for what is now.
+  bool hold_for(Dependence const& now) const { return hold_ && are_kept_for(now); }
+  /// Influences have been calculated between two runs, for what is now.
+  void keep(Dependence const& now) { kept_ = now; }
   /// A run has ended so: asked for only if influences hold.
   template <class Now>
   void end_run(Now const& now) {

@@ -244,11 +244,6 @@ void Simulation::laws_changed() {
   whole_ = {};
 }
 
-void Simulation::update_derived_fields() const {
-  for (auto* scheme : schemes_) scheme->complete(time());
-  for (auto* dissipation : dissipations_) dissipation->update_derived_fields();
-}
-
 void Simulation::take_lengths() {
   for (auto& part : parts_) {
     double scale = std::numeric_limits<double>::infinity();
@@ -261,6 +256,7 @@ void Simulation::take_lengths() {
 void Simulation::accept_particles() {
   for (auto* scheme : schemes_)
     for (auto* ensemble : scheme->ensembles()) {
+      check_masses(*ensemble);
       scheme->box().check(*ensemble);
       scheme->box().wrap(*ensemble);
     }
@@ -283,8 +279,10 @@ void Simulation::adapt_now() {
     changed = true;
     auto const before = checksum();
     auto const sizes_before = sizes();
+    rows_before_change_ = before;
     try {
       change.adaptation->change();
+      rows_before_change_.reset();
       auto const sizes_now = sizes();
       for (std::size_t k = 0; k < parts_.size(); ++k)
         if (sizes_now[k] != sizes_before[k] && !parts_[k].integrator->same_for_all())
@@ -437,22 +435,28 @@ void Simulation::begin() {
   equilibrate_now();  // also for no steps: what is stored of them is where another run goes on
   establish_flow();
   begun_ = true;
-  if (influences_.of_others() && observation_due()) calculate(time());
+  if (observation_due()) {
+    if (checksum(false) != checked_rows_) influences_.outdated();
+    calculate(time());
+  }
   observe_now();
 }
 
 void Simulation::run(std::uint64_t steps, int direction) {
-  std::atomic_ref(pause_).store(false, std::memory_order_relaxed);
   in_second_kick_ = false;
-  check();
   struct Running {
-    explicit Running(Simulation& of) : simulation(of) { simulation.running_ = true; }
+    explicit Running(Simulation& of) : simulation(of) {}
     ~Running() {
       simulation.running_ = false;
+      simulation.rows_before_change_.reset();
+      simulation.clear_pause();
       simulation.drop_forgotten();
     }
     Simulation& simulation;
   } const running_now(*this);
+  check();
+  for (auto const* ensemble : ensembles_) check_masses(*ensemble);
+  running_ = true;
   if (direction < 0) refuse_backwards();
   RunVotes votes(steps);
   votes.begin(
@@ -486,6 +490,7 @@ void Simulation::run(std::uint64_t steps, int direction) {
     done.divided = is_divided();
   }
   if (votes.stopped()) stop();
+  if (steps == 0) calculate(time());
   complete_last_step(whole, last);
   influences_.end_run([&] { return dependence(true); });
   if (whole) whole_.are_for = of_whole_steps(dependence(false), division);
@@ -511,10 +516,12 @@ bool Simulation::take_step(int direction, FusedSteps* whole, bool last) {
   if (!changes_.empty()) adapt_now();
   if (!events_.empty()) happen_now();
   if (!observations_.empty()) {
-    if (whole && observation_due())
+    if (whole && observation_due()) {
       whole->store(time());
-    else if ((last || influences_.of_others()) && observation_due())
-      calculate(time());  // what the next step would begin with all the same
+      if (observers_read_influences_) refresh_in_run();
+    } else if (observation_due()) {
+      calculate(time());  // unless they hold: what the next step would begin with all the same
+    }
     observe_now();
   }
   for (auto const& one : progress_)

@@ -125,10 +125,27 @@ class Simulation {
   void rewind(std::uint64_t steps);
   void stop() { std::atomic_ref(stop_).store(true, std::memory_order_relaxed); }
   bool stopped() const { return std::atomic_ref(stop_).load(std::memory_order_relaxed); }
-  /// The same for this run() alone: the next one goes on.
+  /// Stops the present run() after its step, or the next one before its first step if none is under way: a call from
+  /// another thread is not lost if that run() is about to begin. The run() that stops clears it.
   void pause() { std::atomic_ref(pause_).store(true, std::memory_order_relaxed); }
+  /// Takes a pause() back that no run() has seen.
+  void clear_pause() { std::atomic_ref(pause_).store(false, std::memory_order_relaxed); }
   /// Runs go on again after a stop().
   void clear_stop() { std::atomic_ref(stop_).store(false, std::memory_order_relaxed); }
+
+  /// Brings influences, and the fields that schemes derive from others (a density), up to date with the rows, laws and
+  /// boxes as they are now. Call it between two runs after you have written rows and before you read influences. It
+  /// does nothing if they are up to date. Observers of a run find influences up to date, except those of FusedSteps,
+  /// for which they call it, too. Error if particles are where they can't be or an influence is not finite.
+  void refresh();
+  /// Inside a run, from observe_progress(): brings rows up to date where FusedSteps advance particles of their own.
+  void store_rows() {
+    if (running_ && whole_.steps) whole_.steps->store(time());
+  }
+  /// Observers of this simulation read influences: FusedSteps, which keep none, then have them calculated for each look.
+  void observers_read_influences() { observers_read_influences_ = true; }
+  /// Whether refresh() finds this field from others.
+  bool derives(AnyEnsemble const& ensemble, Field const& field) const;
 
   /// Laws read variables of the program, and these have changed since the last run(): influences are calculated anew.
   /// What particles, schemes, boxes and laws with numbers of their own hold need not be told of.
@@ -270,6 +287,7 @@ class Simulation {
   void restore_rows();
   std::unique_ptr<FusedSteps> fused_steps(double dt);
   FusedSteps* whole_steps(double dt, std::optional<Dependence> const& now);
+  void refresh_in_run();
   std::uint64_t checksum(bool with_influences = true) const;
   Dependence dependence(bool with_influences) const;
   void check_moves();
@@ -356,7 +374,9 @@ class Simulation {
     double dt = 0;
     Dependence are_for = {};  // as they were stored; influences, which they don't read, are not asked for
   } whole_;
-  bool checked_ = false, begun_ = false, running_ = false;
+  std::uint64_t checked_rows_ = 0;                        // checksum of the rows that check() has calculated for
+  std::optional<std::uint64_t> rows_before_change_ = {};  // while an adaptation acts
+  bool checked_ = false, begun_ = false, running_ = false, observers_read_influences_ = false;
   mutable bool stop_ = false;   // read and written as an atomic one: a signal or another thread may set it
   mutable bool pause_ = false;  // the same
 };

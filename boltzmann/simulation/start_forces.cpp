@@ -104,7 +104,7 @@ StartForces forces_at_start(std::vector<Moved> const& moved, std::vector<AnyEnse
         "{} and {} are only {} {}: their force would move the first by {} in one step, further than {}; {}",
         worst.particle.name(), other.name(), told(distance),
         added ? "apart when particles are added" : "apart at the start", told(way), further,
-        added ? "add them where nobody is"
+        added ? "add them further from others (keep_distance of [[events]])"
               : "let [minimise] push them apart (minimise() in C++), or load them further apart (minimum_distance)");
     return found;
   }

@@ -2,6 +2,7 @@
 #include <boltzmann/core/clock.hpp>
 #include <boltzmann/core/team.hpp>
 #include <boltzmann/files/checkpoint.hpp>
+#include <boltzmann/files/disk_sync.hpp>
 #include <boltzmann/files/folder_lock.hpp>
 #include <boltzmann/files/text_file.hpp>
 #include <boltzmann/recording/interrupt.hpp>
@@ -271,8 +272,9 @@ std::string one_line(std::string text) {
 class SweepRuns {
  public:
   SweepRuns(std::string const& folder, SweepPlan const& plan, std::optional<int> threads, bool quiet,
-            WallTime const& wall, std::function<void(Simulation&)> const& attend)
+            WallTime const& wall, std::function<void(Simulation&)> const& attend, bool lasting)
       : folder_(folder),
+        lasting_(lasting),
         plan_(plan),
         threads_(threads),
         wall_(wall),
@@ -318,6 +320,12 @@ class SweepRuns {
   }
 
   void perform_one_by_one() {
+    DelayedSync files(lasting_);
+    // Runs count as done once their files are on the disk.
+    auto const store = [&] {
+      files.flush(folder_);
+      team().on_first([&] { write_runs(folder_, plan_, runs_); });
+    };
     for (std::size_t r = 0; r < runs_.size() && !report_.interrupted && !report_.out_of_time; ++r) {
       if (runs_[r].state != RunState::waiting) {
         tell_failure_of(r);
@@ -325,7 +333,7 @@ class SweepRuns {
       }
       if (team().any(signals_.seen())) {
         report_.interrupted = true;
-        return;
+        return store();
       }
       RunCalls calls;
       calls.begins = [&](Simulation& simulation, std::int64_t first, std::int64_t last) {
@@ -338,10 +346,11 @@ class SweepRuns {
       RunEnd const end = end_of_run(r, calls);
       progress_.clear();
       take(r, end);
-      team().on_first([&] { write_runs(folder_, plan_, runs_); });
+      if (team().first_says(files.due())) store();
       report_.interrupted = end.interrupted;
       report_.out_of_time = end.out_of_time && !end.interrupted;
     }
+    store();
   }
 
   void perform_on_ranks() {
@@ -459,6 +468,7 @@ class SweepRuns {
   }
 
   std::string folder_;
+  bool lasting_;
   SweepPlan const& plan_;
   std::optional<int> threads_;
   WallTime const& wall_;
@@ -473,8 +483,8 @@ class SweepRuns {
 
 SweepReport do_runs(std::string const& folder, SweepPlan const& plan, std::string const& title,
                     std::optional<int> threads, bool quiet, WallTime const& wall,
-                    std::function<void(Simulation&)> const& attend = {}) {
-  SweepRuns runs(folder, plan, threads, quiet, wall, attend);
+                    std::function<void(Simulation&)> const& attend = {}, bool lasting = true) {
+  SweepRuns runs(folder, plan, threads, quiet, wall, attend, lasting);
   if (!quiet) {
     std::string const each = plan.vary.empty() ? "" : fmt::format("{} values of {}", plan.values, plan.vary[0].path);
     std::string const seeds = plan.seeds > 1 ? fmt::format("{} seeds", plan.seeds) : "";
@@ -595,7 +605,7 @@ SweepReport run_sweep(SweepOptions const& options, WallTime const& wall, std::un
     lock = lock_folder(folder);
     write_whole(folder + "/sweep.toml", plan.text);
   });
-  return do_runs(folder, plan, title, options.overrides.threads, options.quiet, wall, options.attend);
+  return do_runs(folder, plan, title, options.overrides.threads, options.quiet, wall, options.attend, options.lasting);
 }
 
 SweepReport resume_sweep(std::string const& place, std::optional<int> threads, bool quiet, WallTime const& wall) {

@@ -17,6 +17,7 @@ struct SweepOptions {
   Overrides overrides;
   std::string folder;  ///< for the results
   bool quiet = false, force = false;
+  bool lasting = true;  ///< the results are to survive a loss of power
   /// Called with the simulation of each run before it begins: it may observe it.
   std::function<void(Simulation& simulation)> attend = {};
 };

@@ -105,8 +105,22 @@ Overrides overrides_of(ScenarioValues const& values) {
   return overrides;
 }
 
+/// A line without the folder of the scenario's file, which is the server's: "copper.toml:25:1: ...".
+std::string without_folder(std::string const& line, std::string const& path) {
+  auto const slash = path.rfind('/');
+  if (path.empty() || slash == std::string::npos || !line.starts_with(path)) return line;
+  return line.substr(slash + 1);
+}
+
 /// One line of a ScenarioErrors: what is set, or left out and needed, where it is wrong; or null.
-json error_of(std::string const& line, ScenarioValues const& values) {
+json error_of(std::string const& told, ScenarioErrors const& errors, ScenarioValues const& values,
+              std::string const& file) {
+  std::string const line = without_folder(told, file);
+  std::vector<std::string> needed;
+  for (auto const& key : errors.absent)
+    if (key.otherwise == "needed" && line.find(fmt::format("needs '{}'", key_of(key.path))) != std::string::npos)
+      needed.push_back(key.path);
+  if (needed.size() == 1) return {{"path", needed.front()}, {"message", line}};
   for (auto const& [path, value] : values) {
     if (!value) {
       if (line.find(fmt::format("no '{}'", key_of(path))) != std::string::npos)
@@ -175,25 +189,27 @@ json curves_of(ScenarioSimulation const& scenario) {
 
 json refusal(std::string const& error) { return {{"error", error}}; }
 
-json refusal(ScenarioErrors const& errors, ScenarioValues const& values) {
+json refusal(ScenarioErrors const& errors, ScenarioValues const& values, std::string const& file) {
   json list = json::array();
-  for (auto const& line : errors.lines) list.push_back(error_of(line, values));
+  for (auto const& line : errors.lines) list.push_back(error_of(line, errors, values, file));
   std::string first = list.empty() ? errors.what() : list[0]["message"].get<std::string>();
   if (list.size() > 1) first += fmt::format(" (and {} more)", list.size() - 1);
   json refused = {{"error", first}, {"errors", list}};
   if (!errors.absent.empty()) refused["absent"] = json_of(errors.absent);
+  if (!errors.parameters.empty()) refused["parameters"] = json_of(errors.parameters);
   return refused;
 }
 
-/// The answer of function(), or why there is none.
+/// The answer of function(file), or why there is none. It sets `file` to the path of the scenario.
 template <class Function>
 json answer(ScenarioValues const& values, Function const& function) {
+  std::string file;
   try {
-    return function();
+    return function(file);
   } catch (ScenarioErrors const& errors) {
-    return refusal(errors, values);
+    return refusal(errors, values, file);
   } catch (std::exception const& error) {
-    return refusal(error.what());
+    return refusal(without_folder(error.what(), file));
   }
 }
 
@@ -295,8 +311,9 @@ json Gallery::scenarios() const {
 }
 
 json Gallery::scenario(std::string const& name) const {
-  return answer({}, [&]() -> json {
+  return answer({}, [&](std::string& file) -> json {
     Choice const one = choice(name, folder_);
+    file = one.path;
     std::string const text = read_scenario(one.path).text;
     auto const outline = outline_scenario(text, one.path);
     json reply = {{"ok", true},
@@ -314,7 +331,7 @@ json Gallery::scenario(std::string const& name) const {
       reply["absent"] = json_of(scenario->absent);
       reply["curves"] = curves_of(*scenario);
     } catch (ScenarioErrors const& errors) {
-      reply["errors"] = refusal(errors, {})["errors"];
+      reply["errors"] = refusal(errors, {}, file)["errors"];
     }
     return reply;
   });
@@ -327,9 +344,13 @@ json Gallery::check(std::string const& name, json const& set) const {
   } catch (Error const& error) {
     return refusal(error.what());
   }
-  return answer(values, [&]() -> json {
-    auto const scenario = load_scenario(choice(name, folder_).path, overrides_of(values));
-    return {{"ok", true}, {"absent", json_of(scenario->absent)}, {"curves", curves_of(*scenario)}};
+  return answer(values, [&](std::string& file) -> json {
+    file = choice(name, folder_).path;
+    auto const scenario = load_scenario(file, overrides_of(values));
+    return {{"ok", true},
+            {"parameters", json_of(scenario->parameters)},
+            {"absent", json_of(scenario->absent)},
+            {"curves", curves_of(*scenario)}};
   });
 }
 
@@ -347,7 +368,7 @@ json Gallery::check_run(std::string const& name, json const& set, std::string co
 json Gallery::save(std::string const& name, json const& set, std::string const& as, bool replace) const {
   json const checked = check(name, set);
   if (!checked.contains("ok")) return checked;
-  return answer({}, [&]() -> json {
+  return answer({}, [&](std::string& /*file*/) -> json {
     if (!is_plain_name(as))
       throw Error(
           fmt::format("'{}' is no name for a scenario; letters, digits, blanks and - _ + , . are allowed, and no "

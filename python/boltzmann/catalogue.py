@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 from . import _core
 from .errors import Error, unknown
 
@@ -16,19 +18,19 @@ class Page(str):
 class Catalogue:
     """The names of one kind and a line for each; ``bz.laws["morse"]`` is the page of one."""
 
-    def __init__(self, kind: str):
+    def __init__(self, kind: str) -> None:
         self._kind = kind
 
     def _lines(self) -> dict[str, str]:
         return dict(_core.listed(self._kind))
 
-    def __iter__(self):
+    def __iter__(self) -> Iterator[str]:
         return iter(self._lines())
 
     def __len__(self) -> int:
         return len(self._lines())
 
-    def __contains__(self, name) -> bool:
+    def __contains__(self, name: object) -> bool:
         return name in self._lines()
 
     def __getitem__(self, name: str) -> Page:
@@ -41,7 +43,7 @@ class Catalogue:
         width = max(map(len, lines), default=0)
         return "\n".join(f"{name:<{width}}  {doc}" for name, doc in lines.items())
 
-    def _ipython_key_completions_(self):
+    def _ipython_key_completions_(self) -> list[str]:
         return list(self)
 
 

@@ -6,9 +6,11 @@ import keyword
 import math
 import os
 import re
+from typing import Any
 
 import numpy as np
 
+from ._types import Array, Keys
 from .errors import Error, ScenarioErrors
 
 _bare = re.compile(r"^[A-Za-z0-9_-]+$")
@@ -33,7 +35,7 @@ def number(value: float) -> str:
     return repr(value)
 
 
-def value(given, name: str) -> str:
+def value(given: Any, name: str) -> str:
     """A Python value as TOML: numbers, texts, lists, dicts, arrays of numpy, quantities with .magnitude and .units."""
     if isinstance(given, (bool, np.bool_)):
         return "true" if given else "false"
@@ -64,7 +66,7 @@ def value(given, name: str) -> str:
     )
 
 
-def quantity(given, name: str) -> str:
+def quantity(given: Any, name: str) -> str:
     """Of a library of units, such as pint."""
     try:
         unit = format(given.units, "~C")
@@ -75,7 +77,7 @@ def quantity(given, name: str) -> str:
     if magnitude.ndim == 0:
         return text(f"{number(float(magnitude))} {unit}".strip())
 
-    def each(numbers):
+    def each(numbers: list[Any]) -> list[Any]:
         return [each(one) if isinstance(one, list) else f"{number(float(one))} {unit}".strip() for one in numbers]
 
     return value(each(magnitude.tolist()), name)
@@ -91,7 +93,7 @@ class Said:
 
     __slots__ = ("heading", "lines", "place", "positions", "wrong")
 
-    def __init__(self, heading: str, lines: list[str], place: str, positions=None):
+    def __init__(self, heading: str, lines: list[str], place: str, positions: Array | None = None) -> None:
         self.heading, self.lines, self.place, self.positions = heading, [heading, *lines], place, positions
         self.wrong = False  # some of it is a mistake
 
@@ -99,23 +101,23 @@ class Said:
 class Document:
     """The tables so far, on top of the text of a file, if there is one."""
 
-    def __init__(self, source: str = "", file: str = "python"):
+    def __init__(self, source: str = "", file: str = "python") -> None:
         self.source, self.file = source, file
         self._said: list[Said] = []  # behind the source
-        self._top: list[tuple[str, str | None]] = []
+        self._top: list[tuple[str, str]] = []
 
-    def top(self, name: str, given, place: str) -> None:
+    def top(self, name: str, given: Any, place: str) -> None:
         """A key outside of all tables: the title."""
         self._top.append((f"{key(name)} = {value(given, name)}", place))
 
-    def table(self, name: str, keys: dict, place: str) -> None:
+    def table(self, name: str, keys: Keys, place: str) -> None:
         """[name], once."""
         said = self._new(f"[{name}]", keys, place)
         if any(one.heading == said.heading for one in self._said):
             raise Error(f"{place}: there is a table [{name}] already")
         self._said.append(said)
 
-    def append(self, name: str, keys: dict, place: str, positions=None, once: bool = False) -> Said | None:
+    def append(self, name: str, keys: Keys, place: str, positions: Array | None = None, once: bool = False) -> Said | None:
         """One more [[name]]; ``once``: if the same is there already, that is returned, and it is not said twice."""
         said = self._new(f"[[{name}]]", keys, place, positions)
         for one in self._said if once else ():
@@ -124,14 +126,14 @@ class Document:
         self._said.append(said)
         return None
 
-    def _new(self, heading: str, keys: dict, place: str, positions=None) -> Said:
+    def _new(self, heading: str, keys: Keys, place: str, positions: Array | None = None) -> Said:
         """It takes the place of those of its kind that were wrong when the simulation was to be made."""
         pairs = [(plain(name), given) for name, given in keys.items() if given is not None]
         said = Said(heading, [f"{key(name)} = {value(given, name)}" for name, given in pairs], place, positions)
         self._said = [one for one in self._said if not (one.wrong and one.heading == heading)]
         return said
 
-    def positions(self) -> list:
+    def positions(self) -> list[Array]:
         """Arrays of places, of those who have some."""
         return [one.positions for one in self._said if one.positions is not None]
 

@@ -2,26 +2,46 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING, Any
+
 import numpy as np
+import numpy.typing as npt
 
 from . import _core
+from ._types import Array
 from .errors import Error, unknown
+
+if TYPE_CHECKING:
+    from ._core import Core
+    from .simulation import Simulation
+
+    _Place = tuple[tuple[int, ...], int, tuple[int, ...]]
 
 
 class Ensemble:
-    """``atoms.position``, ``atoms.velocity``, ... are views of the rows, of shape (N, D) or (N,): what one changes in
-    them the next run takes. They stay valid memory for ever; when the number of particles changes, they turn into NaN.
-    ``atoms.velocity = a`` copies into the rows. While another thread runs the simulation they are copies."""
+    """``atoms.position``, ``atoms.velocity``, ... are views of the rows, of shape (N, D) or (N,). The next run uses what
+    you write into them. They stay valid memory; when the number of particles changes, they turn into NaN.
+    ``atoms.velocity = a`` copies into the rows. ``atoms.influence``, and fields that are derived from others (the density
+    of smooth particles), are read-only copies, calculated for the rows as they are when you read them. While another
+    thread runs the simulation, all arrays are copies."""
 
-    __slots__ = ("_sim", "_name", "_made", "_fields", "_layout", "_particles", "_places")
+    __slots__ = ("_sim", "_name", "_made", "_fields", "_layout", "_particles", "_places", "_derived")
+    _sim: Simulation
+    _name: str
+    _made: Core | None
+    _fields: dict[str, Any]
+    _layout: tuple[int, int, int, str]
+    _particles: _core.Particles
+    _places: dict[str, _Place]
+    _derived: set[str]
 
-    def __init__(self, simulation, name: str):
+    def __init__(self, simulation: Simulation, name: str) -> None:
         put = object.__setattr__
         put(self, "_sim", simulation)
         put(self, "_name", name)
         put(self, "_made", None)
 
-    def _core(self):
+    def _core(self) -> Core:
         """The compiled simulation, and what its rows are like; read again if it has been made anew."""
         core = self._sim._core
         if self._made is not core:
@@ -30,6 +50,7 @@ class Ensemble:
             put(self, "_fields", {f[0]: f for f in _core.fields(core, self._name)})
             put(self, "_particles", _core.Particles(core, self._name))
             put(self, "_places", {name: self._place(f) for name, f in self._fields.items()})
+            put(self, "_derived", {"influence", *_core.derived_fields(core, self._name)})
             put(self, "_made", core)
         return core
 
@@ -68,7 +89,7 @@ class Ensemble:
     def __bool__(self) -> bool:
         return True
 
-    def _place(self, field) -> tuple:
+    def _place(self, field: Any) -> _Place:
         """Of a field in the rows: the shape behind the number of particles, offset, and strides, in bytes."""
         dimension, stride, *_ = self._layout
         _, offset, components, vector, *_ = field
@@ -78,7 +99,7 @@ class Ensemble:
             return (dimension, dimension), 8 * offset, (8 * stride, 8 * dimension, 8)
         return (components,), 8 * offset, (8 * stride, 8)
 
-    def _view(self, name: str, readonly: bool) -> np.ndarray | None:
+    def _view(self, name: str, readonly: bool) -> Array | None:
         """None while another thread runs the simulation."""
         looked = self._particles.look(readonly)
         if looked is None:
@@ -89,23 +110,39 @@ class Ensemble:
             return np.empty((0, *shape))
         return np.ndarray((count, *shape), np.float64, memory, offset, strides)
 
-    def _influence(self, core) -> np.ndarray:
+    def _rows_of(self, name: str) -> Array:
+        view = self._view(name, False)
+        if view is None:
+            raise Error("particles can't be added while the simulation runs")
+        return view
+
+    def _influence(self, core: Core) -> Array:
         shape = (_core.size(core, self._name), self._layout[2])
         return np.ndarray(shape, np.float64, _core.influences(core, self._name)) if shape[0] else np.empty(shape)
 
-    def _array(self, name: str) -> np.ndarray:
-        view = self._view(name, self._sim._looking) if name != "influence" else None
-        if view is not None:
-            return view
-        core = self._made
-        if name == "influence" and not core.running_elsewhere():
-            return self._influence(core)
-        look = (lambda: self._influence(core)) if name == "influence" else (lambda: self._view(name, True))
-        copied = core.between_steps(lambda: look().copy())
+    def _array(self, name: str) -> Array:
+        core = self._core()
+        if name in self._derived:
+            return self._copy(core, name, True)
+        view = self._view(name, self._sim._looking)
+        return self._copy(core, name, False) if view is None else view
+
+    def _copy(self, core: Core, name: str, derived: bool) -> Array:
+        """A read-only copy, between two steps if another thread runs the simulation; of what is derived from rows, as
+        they are now."""
+
+        def look() -> Array:
+            if derived:
+                core.refresh()
+            found = self._influence(core) if name == "influence" else self._view(name, True)
+            assert found is not None  # here the run of another thread waits
+            return found.copy()
+
+        copied: Array = core.between_steps(look)
         copied.flags.writeable = False
         return copied
 
-    def __getattr__(self, name: str) -> np.ndarray:
+    def __getattr__(self, name: str) -> Array:
         if name.startswith("__"):
             raise AttributeError(name)
         if self._made is None or self._made is not self._sim._built:
@@ -114,13 +151,14 @@ class Ensemble:
             return self._array(name)
         raise AttributeError(unknown(f"field of '{self._name}' (class {self._layout[3]}) called", name, self._fields))
 
-    def __getitem__(self, name: str) -> np.ndarray:
+    def __getitem__(self, name: str) -> Array:
         try:
-            return getattr(self, name)
+            found: Array = getattr(self, name)
+            return found
         except (AttributeError, TypeError) as error:
             raise Error(str(error)) from None
 
-    def __setattr__(self, name: str, given) -> None:
+    def __setattr__(self, name: str, given: Any) -> None:
         core = self._core()
         if name == "influence":
             raise Error("influence: it is what the laws have summed up, and is read only")
@@ -129,9 +167,11 @@ class Ensemble:
         if self._sim._looking:
             raise Error(f"{name}: observers change nothing; @sim.change(n) is for what changes particles")
         numbers = self._numbers(core, name, given)
+        self._check(name, numbers)
 
-        def put():
+        def put() -> None:
             view = self._view(name, False)
+            assert view is not None  # here the run of another thread waits
             try:
                 view[...] = numbers
             except ValueError:
@@ -142,10 +182,19 @@ class Ensemble:
 
         core.between_steps(put)
 
-    def __setitem__(self, name: str, given) -> None:
+    def __setitem__(self, name: str, given: Any) -> None:
         setattr(self, name, given)
 
-    def _numbers(self, core, name: str, given):
+    def _check(self, name: str, numbers: Any) -> None:
+        """Refuses what a scenario refuses."""
+        flat = np.asarray(numbers, dtype=np.float64).ravel() if _is_regular(numbers) else np.empty(0)
+        for wrong in flat[~np.isfinite(flat)][:1]:
+            raise Error(f"{name}: {wrong} is not a finite number")
+        if name == "mass" or (name in ("density", "range") and "sound_speed" in self._fields):
+            for wrong in flat[flat <= 0][:1]:
+                raise Error(f"{name}: {wrong:g} is out of range; it must be positive")
+
+    def _numbers(self, core: Core, name: str, given: Any) -> Any:
         """Plain numbers of the base: texts with units, and quantities of a library of units, are converted."""
         if isinstance(given, str):
             number = _core.number_of(core, self._name, name, given)
@@ -159,7 +208,9 @@ class Ensemble:
             unit = quantity(one, name).strip('"')
             factor = _core.number_of(core, self._name, name, unit)
             return np.asarray(given.magnitude) * factor if np.ndim(given.magnitude) else factor
-        if isinstance(given, (list, tuple)) and any(isinstance(one, (str, list, tuple)) for one in given):
+        if given is None:
+            raise Error(f"{name}: numbers are needed, not None")
+        if isinstance(given, (list, tuple)) and any(one is None or isinstance(one, (str, list, tuple)) for one in given):
             return [
                 _core.number_of(core, self._name, name, one) if isinstance(one, str) else self._numbers(core, name, one)
                 for one in given
@@ -174,11 +225,13 @@ class Ensemble:
         raise Error(f"{name}: fields of a class can't be taken away")
 
     @property
-    def rows(self) -> np.ndarray:
+    def rows(self) -> npt.NDArray[Any]:
         """All fields together, as an array of records: ``rows["mass"]``, ``rows[60]``."""
         core = self._core()
         _, stride, _, _ = self._layout
-        names, formats, offsets = [], [], []
+        names: list[str] = []
+        formats: list[Any] = []
+        offsets: list[int] = []
         for name, offset, components, vector, *_ in self._fields.values():
             names.append(name)
             formats.append(np.dtype(np.float64) if components == 1 and not vector else (np.float64, (components,)))
@@ -188,8 +241,13 @@ class Ensemble:
         if count == 0:
             return np.empty(0, kind)
         readonly = self._sim._looking
+        if self._derived - {"influence"}:
+            core.between_steps(core.refresh)
         if core.running_elsewhere():
-            return core.between_steps(lambda: np.ndarray(count, kind, _core.rows(core, self._name, True)).copy())
+            copied: npt.NDArray[Any] = core.between_steps(
+                lambda: np.ndarray(count, kind, _core.rows(core, self._name, True)).copy()
+            )
+            return copied
         return np.ndarray(count, kind, _core.rows(core, self._name, readonly))
 
     def resize(self, count: int) -> None:
@@ -202,32 +260,48 @@ class Ensemble:
             raise Error("resize: observers change nothing; @sim.change(n) is for what changes particles")
         _core.resize(core, self._name, int(count), self._sim._changing)
 
-    def add(self, position, **fields) -> None:
+    def add(self, position: Any, **fields: Any) -> None:
         """One more particle, or several: positions of shape (D,) or (n, D), and other fields, one for all or one each."""
         core = self._core()
         dimension = self._layout[0]
         for name in fields:
             if name not in self._fields:
                 raise Error(unknown(f"field of '{self._name}' (class {self._layout[3]}) called", name, self._fields))
-        places = np.asarray(self._numbers(core, "position", position), dtype=np.float64)
+        given_places = self._numbers(core, "position", position)
+        self._check("position", given_places)
+        try:
+            places = np.asarray(given_places, dtype=np.float64)
+        except ValueError:
+            raise Error("position: one row of numbers is needed for each particle") from None
         if places.ndim < 2:
             places = places.reshape(1, -1)
         if places.shape[1] != dimension:
             raise Error(f"position: {dimension} numbers are needed for each particle, not {places.shape[1]}")
         values = {name: self._numbers(core, name, given) for name, given in fields.items()}
+        for name, numbers in values.items():
+            self._check(name, numbers)
         first = len(self)
         self.resize(first + len(places))
-        self._view("position", False)[first:] = places
+        self._rows_of("position")[first:] = places
         try:
             for name, numbers in values.items():
-                self._view(name, False)[first:] = numbers
+                self._rows_of(name)[first:] = numbers
         except ValueError:
             self.resize(first)
             raise Error(f"{name}: one value for all, or one for each of {len(places)} particles, is needed") from None
 
-    def __dir__(self):
+    def __dir__(self) -> list[str]:
         self._core()
         return [n for n in super().__dir__() if not n.startswith("_")] + list(self._fields) + ["influence"]
 
     def __repr__(self) -> str:
         return f"<{len(self)} particles of '{self._name}', class {self.class_name}: {', '.join(self.fields)}>"
+
+
+def _is_regular(numbers: Any) -> bool:
+    """Whether nested lists have the shape of an array."""
+    try:
+        np.asarray(numbers, dtype=np.float64)
+    except (TypeError, ValueError):
+        return False
+    return True

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import os
 import sys
+from collections.abc import Iterable
+from types import FrameType
 
 _here = os.path.dirname(os.path.abspath(__file__))
 
@@ -15,11 +17,11 @@ class Error(ValueError):
 class ScenarioErrors(Error):
     """All mistakes of a scenario; ``lines`` has one line each, with the place of each in Python or in its file."""
 
-    def __init__(self, lines):
+    def __init__(self, lines: str | Iterable[str]) -> None:
         self.lines = [lines] if isinstance(lines, str) else list(lines)
         super().__init__("\n".join(self.lines))
 
-    def __reduce__(self):
+    def __reduce__(self) -> tuple[type[ScenarioErrors], tuple[list[str]]]:
         return (type(self), (self.lines,))
 
 
@@ -34,7 +36,7 @@ class RecordingFailure(OSError):
 
 def caller() -> str:
     """``file:line`` of the call into this package; in a notebook the number of the cell's line."""
-    frame = sys._getframe(1)
+    frame: FrameType | None = sys._getframe(1)
     while frame is not None and os.path.dirname(os.path.abspath(frame.f_code.co_filename)) == _here:
         frame = frame.f_back
     if frame is None:
@@ -45,10 +47,8 @@ def caller() -> str:
     return f"{os.path.basename(file)}:{frame.f_lineno}"
 
 
-def unknown(kind: str, name: str, names) -> str:
-    """One line for a name that is not there."""
+def unknown(kind: str, name: str, names: Iterable[str]) -> str:
+    """One line for a name that is not there: the nearest one first, at most eight of those there are."""
     from . import _core
 
-    names = list(names)
-    listed = ", ".join(names) if names else "none"
-    return f"there is no {kind} '{name}'; there {'is' if len(names) == 1 else 'are'} {listed}" + _core.nearest(name, names)
+    return f"there is no {kind} '{name}'" + _core.choices(name, list(names))

@@ -2,20 +2,28 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, Any
+
 import numpy as np
+import numpy.typing as npt
 
 from . import _core
+from ._types import Array, Keys
 from .errors import Error, unknown
 from .table import Table, from_rows
+
+if TYPE_CHECKING:
+    from .simulation import Simulation
 
 
 class Units:
     """The simulation's base units, in which all arrays are."""
 
-    def __init__(self, simulation):
+    def __init__(self, simulation: Simulation) -> None:
         self._sim = simulation
 
-    def __call__(self, quantity) -> float:
+    def __call__(self, quantity: Any) -> float:
         """The plain number of "5 fs"."""
         if isinstance(quantity, (int, float, np.number)):
             return float(quantity)
@@ -23,11 +31,11 @@ class Units:
             raise Error(f"a quantity is a number or a text such as '5 fs', not {type(quantity).__name__}")
         return _core.quantity(self._sim._core, quantity)
 
-    def to(self, unit: str, numbers):
+    def to(self, unit: str, numbers: npt.ArrayLike) -> Any:
         """Numbers of the base in another unit: ``sim.units.to("km/s", sim.atoms.velocity)``."""
         return np.asarray(numbers) / _core.base_of_unit(self._sim._core, unit)
 
-    def of(self, unit: str, numbers):
+    def of(self, unit: str, numbers: npt.ArrayLike) -> Any:
         """And back: numbers that are in this unit, as the base counts."""
         return np.asarray(numbers) * _core.base_of_unit(self._sim._core, unit)
 
@@ -35,7 +43,7 @@ class Units:
 class Report:
     """How a run went; it shows what was conserved."""
 
-    def __init__(self, simulation, told: dict):
+    def __init__(self, simulation: Simulation, told: Keys) -> None:
         self.steps: int = told["steps"]
         self.step: int = told["step"]
         self.seconds: float = told["seconds"]
@@ -61,7 +69,7 @@ class Report:
 class Diagnosis:
     """What is measured: columns over time, ``rdf.table``, and functions that are gathered, ``rdf.r, rdf.g``."""
 
-    def __init__(self, simulation, kind: str, number: int | None, titles=()):
+    def __init__(self, simulation: Simulation, kind: str, number: int | None, titles: Iterable[str] = ()) -> None:
         self._sim, self.kind, self._number, self._titles = simulation, kind, number, list(titles)
 
     @property
@@ -83,13 +91,13 @@ class Diagnosis:
         if self._number is not None:
             self._sim._core.unwatch(self._number)
 
-    def __getattr__(self, name: str):
+    def __getattr__(self, name: str) -> Array:
         if name.startswith("_"):
             raise AttributeError(name)
         tables = self.gathered if self._number is not None or self._sim._built else {}
         for one in tables.values():
             try:
-                return getattr(one, name)
+                return one.__getattr__(name)
             except AttributeError:
                 continue
         names = [column for one in tables.values() for column in one.names]
@@ -99,60 +107,60 @@ class Diagnosis:
         return f"<diagnosis {self.kind}>"
 
 
-def _gathered_table(columns: dict) -> Table:
+def _gathered_table(columns: dict[str, bytes]) -> Table:
     return Table(list(columns), [np.frombuffer(numbers, dtype=np.float64) for numbers in columns.values()])
 
 
 class Record:
     """Copies of one field at steps of a run: shape (looks, N, D). ``.step``, ``.time``; numpy takes it as an array."""
 
-    def __init__(self):
-        self._copies: list[np.ndarray] = []
+    def __init__(self) -> None:
+        self._copies: list[Array] = []
         self._steps: list[int] = []
         self._times: list[float] = []
 
-    def __array__(self, dtype=None, copy=None):
+    def __array__(self, dtype: npt.DTypeLike = None, copy: bool | None = None) -> npt.NDArray[Any]:
         stacked = np.array(self._copies)
         return stacked if dtype is None else stacked.astype(dtype)
 
     @property
-    def step(self) -> np.ndarray:
+    def step(self) -> Array:
         """Of each look."""
         return np.array(self._steps)
 
     @property
-    def time(self) -> np.ndarray:
+    def time(self) -> Array:
         """Of each look, in the base."""
         return np.array(self._times)
 
     @property
-    def T(self) -> np.ndarray:
+    def T(self) -> Array:
         """The axes in reverse order: components first, looks last."""
         return np.asarray(self).T
 
     @property
-    def shape(self):
+    def shape(self) -> tuple[int, ...]:
         """Looks, particles, components."""
         return np.asarray(self).shape
 
-    def __getitem__(self, which):
+    def __getitem__(self, which: Any) -> Any:
         return np.asarray(self)[which]
 
     def __len__(self) -> int:
         return len(self._copies)
 
 
-class Measured(dict):
+class Measured(dict[str, float]):
     """Numbers by the names of their columns, of one moment; as a float it is the first of them."""
 
-    def __init__(self, table: Table):
+    def __init__(self, table: Table) -> None:
         super().__init__((name, float(table[name][0])) for name in table.names[2:])
         self.units = {name: table.units[name] for name in self}
 
     def __float__(self) -> float:
         return next(iter(self.values()))
 
-    def __missing__(self, name):
+    def __missing__(self, name: object) -> float:
         raise Error(unknown("column", str(name), self))
 
     def __repr__(self) -> str:
@@ -162,13 +170,15 @@ class Measured(dict):
 class BoxEdges:
     """The box: ``low``, ``high``, ``length`` are arrays, ``boundary`` has a word for each axis."""
 
-    def __init__(self, low, high, boundary):
-        self.low, self.high, self.boundary = np.array(low), np.array(high), list(boundary)
+    def __init__(self, low: list[float], high: list[float], boundary: list[str]) -> None:
+        self.low: Array = np.array(low)
+        self.high: Array = np.array(high)
+        self.boundary = list(boundary)
 
     @property
-    def length(self) -> np.ndarray:
+    def length(self) -> Array:
         """Along each axis."""
-        return self.high - self.low
+        return np.subtract(self.high, self.low)
 
     @property
     def volume(self) -> float:
@@ -188,8 +198,8 @@ class Mesh:
     as far as space has axes, ``field`` with the components behind them; ``x``, ``y``, ``z`` are the places of the nodes,
     ``units`` the base units of the fields."""
 
-    def __init__(self, fields: list):
-        self._arrays: dict[str, np.ndarray] = {}
+    def __init__(self, fields: list[Any]) -> None:
+        self._arrays: dict[str, Array] = {}
         self.units: dict[str, str] = {}
         for name, components, dimension, nodes, low, spacing, unit in fields:
             shape = tuple(reversed(nodes[:dimension]))
@@ -203,17 +213,17 @@ class Mesh:
     def names(self) -> list[str]:
         return list(self.units)
 
-    def __getitem__(self, name: str) -> np.ndarray:
+    def __getitem__(self, name: str) -> Array:
         if name not in self._arrays:
             raise Error(unknown("field on the mesh called", str(name), self._arrays))
         return self._arrays[name]
 
-    def __getattr__(self, name: str) -> np.ndarray:
+    def __getattr__(self, name: str) -> Array:
         if name.startswith("_") or name not in self._arrays:
             raise AttributeError(unknown("field on the mesh called", name, () if name.startswith("_") else self._arrays))
         return self._arrays[name]
 
-    def __dir__(self):
+    def __dir__(self) -> list[str]:
         return list(super().__dir__()) + list(self._arrays)
 
     def __repr__(self) -> str:

@@ -2,11 +2,28 @@
 
 from __future__ import annotations
 
+import atexit
 import html
 import threading
+import weakref
+from typing import TYPE_CHECKING
 
 from . import _core
+from ._types import Path
 from .errors import Error
+
+if TYPE_CHECKING:
+    from .simulation import Simulation
+
+
+_windows: weakref.WeakSet[Window] = weakref.WeakSet()
+
+
+@atexit.register
+def _close_windows() -> None:
+    """At the end of the program: a thread inside the compiled module can't outlive the interpreter."""
+    for window in list(_windows):
+        window._end()
 
 
 class Window:
@@ -14,13 +31,14 @@ class Window:
     elsewhere ``address`` is for a browser. While it is open, arrays of the simulation are copies, and what is assigned to
     them comes between two steps."""
 
-    def __init__(self, simulation, steps: int, port: int, height: int, play: bool):
-        self._sim, self._height, self._failure = simulation, height, None
+    def __init__(self, simulation: Simulation, steps: int, port: int, height: int, play: bool) -> None:
+        self._sim, self._height = simulation, height
+        self._failure: BaseException | None = None
         self._window = _core.LiveWindow(simulation._core, port)
         self.address: str = self._window.address()
         started = threading.Event()
 
-        def serve():
+        def serve() -> None:
             started.set()
             try:
                 self._window.serve(steps, play)
@@ -30,6 +48,7 @@ class Window:
         self._thread = threading.Thread(target=serve, daemon=True)
         self._thread.start()
         started.wait()
+        _windows.add(self)
 
     @property
     def open(self) -> bool:
@@ -45,15 +64,18 @@ class Window:
 
     def close(self) -> None:
         """Ends the run after its step, and the page with it."""
+        self._end()
+        self.wait()
+
+    def _end(self) -> None:
         while self._thread.is_alive():
             self._window.close()
             self._thread.join(0.05)
-        self.wait()
 
     def __enter__(self) -> "Window":
         return self
 
-    def __exit__(self, *failure) -> None:
+    def __exit__(self, *failure: object) -> None:
         self.close()
 
     def _repr_html_(self) -> str:
@@ -68,11 +90,11 @@ class Window:
 class Replay:
     """A stored run as one HTML text, which plays without a port in any frontend. ``save("run.html")`` writes it."""
 
-    def __init__(self, folder: str, views, frames: int, megabytes: float, height: int):
+    def __init__(self, folder: str, views: list[str], frames: int, megabytes: float, height: int) -> None:
         self.html, self.frames, self.stored_frames, self.message = _core.replay_page(folder, views, frames, megabytes)
         self._height = height
 
-    def save(self, path) -> None:
+    def save(self, path: Path) -> None:
         with open(path, "w", encoding="utf-8") as file:
             file.write(self.html)
 
@@ -87,7 +109,7 @@ class Replay:
         return f"<replay of {self.frames} of {self.stored_frames} frames, {len(self.html) / 1e6:.2g} MB{said}>"
 
 
-def check_port(port) -> int:
+def check_port(port: object) -> int:
     if isinstance(port, bool) or not isinstance(port, int) or not 0 <= port <= 65535:
         raise Error(f"port: a whole number from 0 (a free one) to 65535, not {port!r}")
     return port

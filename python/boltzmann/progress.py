@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import sys
+from typing import Any
 
 
 class ProgressLine:
     """How far a run is: one line that is rewritten, on a terminal or in a notebook's cell."""
 
-    def __init__(self, first: int, steps: int):
-        self._first, self._steps, self._shown, self._handle = first, steps, False, None
+    def __init__(self, first: int, steps: int) -> None:
+        self._first, self._steps, self._shown = first, steps, False
+        self._handle: Any = None
 
     def show(self, step: int, seconds: float) -> None:
         done = abs(step - self._first)

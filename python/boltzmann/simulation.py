@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import atexit
 import inspect
 import math
 import os
@@ -11,16 +12,42 @@ import tempfile
 import threading
 import time as clock
 import warnings as python_warnings
+import weakref
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any, TypeVar, overload
 
 import numpy as np
 
 from . import _core
+from ._types import Array, Keys, Path
 from .document import Document, plain, value
 from .ensemble import Ensemble
 from .errors import Error, ScenarioErrors, caller, unknown
 from .measured import BoxEdges, Diagnosis, Measured, Mesh, Record, Report, Units
 from .progress import ProgressLine, wants_progress
 from .table import Picture, Table, from_rows, words
+
+if TYPE_CHECKING:
+    from ._core import Core
+    from .notebook import Window
+
+_T = TypeVar("_T")
+_F = TypeVar("_F", bound=Callable[..., Any])
+
+_simulations: weakref.WeakSet[Simulation] = weakref.WeakSet()  # that have been made
+
+
+@atexit.register
+def _end_runs() -> None:
+    """At the end of the program: a thread inside the compiled module can't outlive the interpreter, so every run that
+    is under way ends after its step."""
+    _core.end_sweeps()
+    for sim in list(_simulations):
+        built = sim._built
+        while built is not None and built.running_elsewhere():
+            built.stop()
+            clock.sleep(0.001)
+
 
 # Arrays up to so many numbers stand in the text of a scenario; longer ones in a file beside it.
 _numbers_in_text = 3000
@@ -34,7 +61,29 @@ class Simulation:
     kind. Nothing is made before it is needed; then all mistakes are told at once, each at its line. What was wrong is
     replaced by what is said next of its kind."""
 
-    def __init__(self, title: str | None = None, **tables):
+    _document: Document
+    _overrides: dict[str, Any]
+    _name: str
+    _folder: str
+    _set_place: str
+    _box_given: bool
+    _planned: bool
+    _built: Core | None
+    _built_digest: str
+    _begun: bool
+    _files: dict[str, str]
+    _temporary: tempfile.TemporaryDirectory[str] | None
+    _functions: dict[int, tuple[Callable[..., Any], str, int, bool]]
+    _attendants: dict[int, int]
+    _next_function: int
+    _ensembles: dict[str, Ensemble]
+    _looking: bool
+    _changing: bool
+    _thread: threading.Thread | None
+    _thread_failure: BaseException | None
+    _progress_line: ProgressLine | None
+
+    def __init__(self, title: str | None = None, **tables: Any) -> None:
         self._start(Document())
         place = caller()
         if title is not None:
@@ -52,7 +101,7 @@ class Simulation:
         for name, given in tables.items():
             self._table(plain(name), given, place)
 
-    def _start(self, document: Document, **overrides) -> None:
+    def _start(self, document: Document, **overrides: Any) -> None:
         put = object.__setattr__
         put(self, "_document", document)
         put(self, "_overrides", {"set": [], "steps": None, "seed": None, "threads": None, **overrides})
@@ -78,7 +127,7 @@ class Simulation:
 
     # ---- what is said ----
 
-    def _table(self, name: str, given, place: str) -> None:
+    def _table(self, name: str, given: Any, place: str) -> None:
         if isinstance(given, dict):
             self._document.table(name, given, place)
         elif isinstance(given, (list, tuple)) and given and all(isinstance(one, dict) for one in given):
@@ -87,7 +136,7 @@ class Simulation:
         else:
             self._document.top(name, given, place)
 
-    def _say(self, table: str, keys: dict, positions=None) -> None:
+    def _say(self, table: str, keys: Keys, positions: Array | None = None) -> None:
         if self._begun:
             raise Error(
                 f"{caller()}: the run has begun; what acts is said before its first step (diagnoses and observers may "
@@ -114,9 +163,9 @@ class Simulation:
         for name in old.ensembles():
             _core.resize(old, name, 0, False)  # views of it become NaN
 
-    _kept_rows: dict = {}
+    _kept_rows: dict[str, tuple[tuple[int, int, int, str], int, bytes]] = {}
 
-    def ensemble(self, name: str, class_: str, *, position=None, load=None, **fields) -> Ensemble:
+    def ensemble(self, name: str, class_: str, *, position: Any = None, load: Any = None, **fields: Any) -> Ensemble:
         """[[ensembles]]: particles of a class, by ``load=dict(kind=...)`` or ``position=`` (N, D) numbers of the base;
         fields are one value for all, or an array with one for each."""
         place = caller()
@@ -134,10 +183,12 @@ class Simulation:
         self._say("ensembles", {**keys, "load": load, **fields}, places)
         return self[name]
 
-    def _given_places(self, name: str, class_: str, position, fields: dict, place: str):
+    def _given_places(
+        self, name: str, class_: str, position: Any, fields: Keys, place: str
+    ) -> tuple[Keys, Keys, Array | None]:
         if isinstance(position, (list, tuple)) and _has_texts(position):
-            places = [one if isinstance(one, (list, tuple)) else [one] for one in position]
-            return {"kind": "positions", "positions": places}, fields, None
+            texts = [one if isinstance(one, (list, tuple)) else [one] for one in position]
+            return {"kind": "positions", "positions": texts}, fields, None
         try:
             places = np.asarray(position, dtype=np.float64)
         except (TypeError, ValueError):
@@ -174,30 +225,30 @@ class Simulation:
             self._temporary = tempfile.TemporaryDirectory(prefix="boltzmann-")
         return self._temporary.name
 
-    def influence(self, law: str | None = None, **keys) -> None:
+    def influence(self, law: str | None = None, **keys: Any) -> None:
         """[[influences]]: a shipped law by its name, or ``energy="..."`` (or ``influence="..."``) as a formula. Keys that
         are no keys of the table are parameters of a typed law."""
         if law is None:
             keys = _typed_law(keys)
         self._say("influences", {"law": law, **keys})
 
-    def dissipation(self, kind: str, **keys) -> None:
+    def dissipation(self, kind: str, **keys: Any) -> None:
         """[[dissipation]]: friction and noise, thermostats."""
         self._say("dissipation", {"kind": kind, **keys})
 
-    def wall(self, **keys) -> None:
+    def wall(self, **keys: Any) -> None:
         """[[box.walls]]."""
         self._say("box.walls", keys)
 
-    def event(self, at, **keys) -> None:
+    def event(self, at: Any, **keys: Any) -> None:
         """[[events]]: something happens at a time, once or every so often."""
         self._say("events", {"at": at, **keys})
 
-    def view(self, name: str, drawing: str = "cartesian", **keys) -> None:
+    def view(self, name: str, drawing: str = "cartesian", **keys: Any) -> None:
         """[[views]]: a drawing that the window offers by its name."""
         self._say("views", {"name": name, "drawing": drawing, **keys})
 
-    def add(self, table: str, **keys) -> None:
+    def add(self, table: str, **keys: Any) -> None:
         """One more table of any kind: ``sim.add("rigid_bonds", on="water", ...)`` says [[rigid_bonds]]."""
         kinds = {name: heading for name, heading, _ in _core.tables()}
         name = plain(table)
@@ -211,7 +262,7 @@ class Simulation:
             return
         self._say(name, keys)
 
-    def diagnosis(self, kind: str, every: int | None = None, **keys) -> Diagnosis:
+    def diagnosis(self, kind: str, every: int | None = None, **keys: Any) -> Diagnosis:
         """[[diagnoses]]: something is measured. Before the run it is a part of the scenario, and of its table; with
         ``every``, or once the run has begun, it looks every so many steps and has a table of its own. (A kind's own key
         of that name is said by ``sim.add("diagnoses", kind=..., every=...)``.)"""
@@ -225,15 +276,16 @@ class Simulation:
         if not isinstance(every, (int, np.integer)) or every < 1:
             raise Error(f"{place}: every: a whole number of steps, 1 or more, is needed, not {every!r}")
         core = self._core
-        number = self._located(document, lambda: core.watch(self._source(document), int(every)))
+        interval = int(every)
+        number = self._located(document, lambda: core.watch(self._source(document), interval))
         return Diagnosis(self, kind, number)
 
     # ---- making it ----
 
-    def _source(self, document: Document):
+    def _source(self, document: Document) -> _core.Source:
         return _core.Source(document.text(), document.file, self._name, self._folder)
 
-    def _located(self, document: Document, function):
+    def _located(self, document: Document, function: Callable[[], _T]) -> _T:
         try:
             return function()
         except ScenarioErrors as errors:
@@ -241,20 +293,20 @@ class Simulation:
         raise located
 
     @property
-    def _core(self):
+    def _core(self) -> Core:
         built = self._built
         if built is None:
             built = self._build()
         return built
 
-    def _build(self):
+    def _build(self) -> Core:
         document = self._document
         if not self._box_given and not self._begun:
             document = document.copy()
             document.table("box", _box_around(document.positions()), caller())
         o = self._overrides
         core = self._located(
-            document, lambda: _core.Core(self._source(document), o["set"], o["steps"], o["seed"], o["threads"])
+            document, lambda: Core(self._source(document), o["set"], o["steps"], o["seed"], o["threads"])
         )
         digest = core.digest()
         for name, (layout, count, rows) in self._kept_rows.items():
@@ -263,6 +315,7 @@ class Simulation:
                     np.frombuffer(_core.rows(core, name, False), dtype=np.uint8)[:] = np.frombuffer(rows, dtype=np.uint8)
         self._kept_rows = {}
         core.owner(self)
+        _simulations.add(self)
         self._attendants = {}
         for number, (_, kind, every, _) in self._functions.items():
             self._attendants[number] = core.attend(every, number, kind == "change")
@@ -270,7 +323,7 @@ class Simulation:
         self._built_digest, self._built = digest, core
         return core
 
-    def check(self) -> "Simulation":
+    def check(self) -> Simulation:
         """Makes it: ScenarioErrors with all mistakes. Warnings are Python's."""
         for line in self._core.warnings():
             if line.startswith("warning: "):
@@ -282,7 +335,7 @@ class Simulation:
         """The scenario as text: what ``bzm run`` would take."""
         return self._core.resolved()
 
-    def save(self, path) -> None:
+    def save(self, path: Path) -> None:
         """Writes the scenario to a file; arrays that are too long for a text stand beside it."""
         path = os.fspath(path)
         if not path.endswith(".toml"):
@@ -300,9 +353,9 @@ class Simulation:
     def run(
         self,
         steps: int | None = None,
-        time=None,
+        time: float | str | None = None,
         hours: float | None = None,
-        out=None,
+        out: Path | None = None,
         overwrite: bool = False,
         progress: bool | None = None,
     ) -> Report:
@@ -320,7 +373,7 @@ class Simulation:
             raise Error(f"steps: 0 or more, not {steps}; rewind() goes back")
         return self._go(core, steps, hours, out, overwrite, progress)
 
-    def _steps_of(self, core, time) -> int:
+    def _steps_of(self, core: Core, time: float | str | None) -> int:
         if time is None:
             if not self._planned or core.planned() == 0:
                 raise Error("run: say how many steps, or a time: nothing is planned in run = dict(steps=...)")
@@ -338,7 +391,9 @@ class Simulation:
             raise Error(f"steps: 0 or more, not {steps}")
         return self._go(core, -steps, None, None, False, None)
 
-    def _go(self, core, steps: int, hours, out, overwrite: bool, progress) -> Report:
+    def _go(
+        self, core: Core, steps: int, hours: float | None, out: Path | None, overwrite: bool, progress: bool | None
+    ) -> Report:
         folder = ""
         if out is not None:
             folder = self._prepare(core, os.fspath(out), overwrite)
@@ -352,10 +407,11 @@ class Simulation:
         try:
             return Report(self, core.run(steps, folder, overwrite, 3600 * hours if hours else 0.0, progress))
         finally:
-            if progress:
+            if self._progress_line is not None:
                 self._progress_line.end()
+                self._progress_line = None
 
-    def _prepare(self, core, folder: str, overwrite: bool) -> str:
+    def _prepare(self, core: Core, folder: str, overwrite: bool) -> str:
         """Arrays go where the results are, so that the stored scenario finds them."""
         if core.folder() or not self._files:
             return folder
@@ -367,21 +423,22 @@ class Simulation:
         return folder
 
     def _progress(self, step: int, seconds: float) -> None:
-        self._progress_line.show(step, seconds)
+        if self._progress_line is not None:
+            self._progress_line.show(step, seconds)
 
     def stop(self) -> None:
-        """Ends the present run after its step; from an observer, or from another thread."""
+        """Ends the present run after its step; from an observer, or from another thread. It does nothing between runs."""
         if self._built is not None:
             self._built.stop()
 
-    def start(self, steps: int | None = None, **options) -> "Simulation":
+    def start(self, steps: int | None = None, **options: Any) -> Simulation:
         """run() in the background. Arrays are copies meanwhile, taken between two steps. wait() ends it."""
         if self._thread is not None and self._thread.is_alive():
             raise Error("start: the simulation runs already; wait() waits for its end")
         self._core  # mistakes are told here
         options.setdefault("progress", False)
 
-        def go():
+        def go() -> None:
             try:
                 self.run(steps, **options)
             except BaseException as failure:  # told by wait()
@@ -390,11 +447,11 @@ class Simulation:
         self._thread_failure = None
         self._thread = threading.Thread(target=go, daemon=True)
         self._thread.start()
-        while self._thread.is_alive() and not self._built.running():
+        while self._thread.is_alive() and not self.running:
             clock.sleep(0.0005)
         return self
 
-    def wait(self) -> "Simulation":
+    def wait(self) -> Simulation:
         """Until the run in the background ends; raises what has ended it."""
         if self._thread is not None:
             while self._thread.is_alive():
@@ -412,17 +469,25 @@ class Simulation:
 
     # ---- observers ----
 
-    def every(self, steps: int, function=None):
+    @overload
+    def every(self, steps: int, function: None = None) -> Callable[[_F], _F]: ...
+    @overload
+    def every(self, steps: int, function: _F) -> _F: ...
+    def every(self, steps: int, function: Any = None) -> Any:
         """Calls a function at finished steps that are multiples of this: ``@sim.every(20)``. It may take the simulation
         as its argument; its views are read only. One of the same name replaces the former. An exception ends the run
         after its step and comes out of run()."""
         return self._attend("look", steps, function)
 
-    def change(self, steps: int, function=None):
+    @overload
+    def change(self, steps: int, function: None = None) -> Callable[[_F], _F]: ...
+    @overload
+    def change(self, steps: int, function: _F) -> _F: ...
+    def change(self, steps: int, function: Any = None) -> Any:
         """The same for a function that changes particles, or their number, between steps. Such a run can't go back."""
         return self._attend("change", steps, function)
 
-    def _attend(self, kind: str, steps, function):
+    def _attend(self, kind: str, steps: int, function: Any) -> Any:
         steps = _whole(steps, "every" if kind == "look" else "change")
         if steps < 1:
             raise Error(f"a function is called every 1 or more steps, not every {steps}")
@@ -442,7 +507,7 @@ class Simulation:
             self._attendants[number] = self._built.attend(steps, number, kind == "change")
         return function
 
-    def forget(self, function) -> None:
+    def forget(self, function: Callable[..., Any]) -> None:
         """An observer is called no more."""
         for number, (known, *_) in list(self._functions.items()):
             if known is function:
@@ -480,7 +545,7 @@ class Simulation:
             raise Error(unknown("component", component[0], ("x", "y", "z")[: ensemble.dimension]))
         kept = Record()
 
-        def look():
+        def look() -> None:
             array = getattr(ensemble, field)
             kept._copies.append((array[:, "xyz".index(component[0])] if component else array).copy())
             kept._steps.append(self.step)
@@ -510,14 +575,13 @@ class Simulation:
             return self[name]
         raise AttributeError(unknown("ensemble", name, names))
 
-    def __setattr__(self, name: str, given) -> None:
+    def __setattr__(self, name: str, given: Any) -> None:
         if name.startswith("_") or isinstance(getattr(type(self), name, None), property):
             object.__setattr__(self, name, given)
             return
         settable = [n for n in dir(type(self)) if isinstance(getattr(type(self), n), property)
                     and getattr(type(self), n).fset is not None]
-        raise Error(f"a simulation has no '{name}' that can be set; there are {', '.join(settable)}"
-                    + _core.nearest(name, settable))
+        raise Error(f"a simulation has no '{name}' that can be set" + _core.choices(name, settable))
 
     @property
     def ensembles(self) -> dict[str, Ensemble]:
@@ -540,10 +604,10 @@ class Simulation:
         return self._core.step_size()
 
     @step_size.setter
-    def step_size(self, size) -> None:
+    def step_size(self, size: float | str) -> None:
         self._core.set_step_size(self._time(size))
 
-    def _time(self, given) -> float:
+    def _time(self, given: Any) -> float:
         return _core.time_of(self._core, given) if isinstance(given, str) else self.units(given)
 
     @property
@@ -571,12 +635,12 @@ class Simulation:
         return self._core.description()
 
     @property
-    def box(self) -> "BoxEdges":
+    def box(self) -> BoxEdges:
         """The box as it is now."""
         return BoxEdges(*self._core.box())
 
     @property
-    def mesh(self) -> "Mesh":
+    def mesh(self) -> Mesh:
         """What the mesh has on its nodes now: ``sim.mesh.potential``, ``sim.mesh.x``."""
         core = self._core
         return Mesh(core.between_steps(lambda: _core.mesh_fields(core)))
@@ -597,7 +661,7 @@ class Simulation:
         core = self._core
         return from_rows(*core.between_steps(core.rows))
 
-    def measure(self, what: str, **keys) -> "Measured":
+    def measure(self, what: str, **keys: Any) -> Measured:
         """A diagnosis of the present state, by its kind and keys: ``sim.measure("energies")["total energy"]``,
         ``float(sim.measure("temperature"))``. In the units of ``sim.table``."""
         place = caller()
@@ -614,7 +678,7 @@ class Simulation:
         """What was conserved since the first step, and by how much not."""
         return "\n".join(self._core.conserved())
 
-    def picture(self, drawing: str | None = None, **keys) -> Picture:
+    def picture(self, drawing: str | None = None, **keys: Any) -> Picture:
         """A drawing of the present state; keys are those of [[output.pictures]]."""
         options = {plain(name): given for name, given in keys.items() if given is not None}
         if drawing is not None:
@@ -627,7 +691,9 @@ class Simulation:
             located = ScenarioErrors([f"{place}: {line.removeprefix('--')}" for line in errors.lines])
         raise located
 
-    def window(self, steps: int | None = None, port: int = 0, height: int = 600, play: bool = False, out=None):
+    def window(
+        self, steps: int | None = None, port: int = 0, height: int = 600, play: bool = False, out: Path | None = None
+    ) -> Window:
         """A live page in the notebook's cell, or at ``.address`` for a browser. ``steps`` are planned; ``out`` is a folder
         for files. ``close()`` ends it."""
         from .notebook import Window, check_port
@@ -636,7 +702,7 @@ class Simulation:
         core.refuse_while_running("a window can't be opened")
         if steps is None:
             steps = max(core.planned() - core.step(), 0) or 10**9
-        steps, port = _from_zero(steps, "steps"), check_port(port)
+        steps, port = _from_zero(_whole(steps, "steps"), "steps") or 0, check_port(port)
         if out is not None:
             core.record(self._prepare(core, os.fspath(out), False))
         self._begun = True
@@ -645,9 +711,9 @@ class Simulation:
     def digest(self) -> str:
         """A checksum of step and particles: equal for equal bits."""
         core = self._core
-        return core.between_steps(core.digest)
+        return str(core.between_steps(core.digest))
 
-    def copy(self) -> "Simulation":
+    def copy(self) -> Simulation:
         """A twin in memory, which goes on with the same bits. Functions that change particles change the twin's;
         observers, diagnoses that came later, and files are not copied."""
         core = self._core
@@ -665,7 +731,7 @@ class Simulation:
         twin._begun = self._begun
         return twin
 
-    def __getstate__(self):
+    def __getstate__(self) -> tuple[Any, ...]:
         core = self._core
         if core.running():
             raise Error("a simulation can't be pickled while it runs")
@@ -677,7 +743,7 @@ class Simulation:
                 files[path] = (name, file.read())
         return (core.resolved(), self._name, self._planned, self._begun, files, core.save())
 
-    def __setstate__(self, state) -> None:
+    def __setstate__(self, state: tuple[Any, ...]) -> None:
         resolved, name, planned, begun, files, saved = state
         self._start(Document(resolved, name))
         self._name, self._planned = name, planned
@@ -690,7 +756,7 @@ class Simulation:
         self._core.restore(saved)
         self._begun = begun
 
-    def __dir__(self):
+    def __dir__(self) -> list[str]:
         names = list(super().__dir__())
         try:
             names += self._core.ensembles()
@@ -721,7 +787,7 @@ class Simulation:
         )
 
 
-def _whole(given, name: str) -> int:
+def _whole(given: Any, name: str) -> int:
     if isinstance(given, float) and given.is_integer():
         given = int(given)
     if isinstance(given, bool) or not isinstance(given, (int, np.integer)):
@@ -731,13 +797,16 @@ def _whole(given, name: str) -> int:
     return int(given)
 
 
-def _from_zero(given, name: str) -> int | None:
-    if given is not None and (given := _whole(given, name)) < 0:
-        raise Error(f"{name}: 0 or more, not {given}")
-    return given
+def _from_zero(given: Any, name: str) -> int | None:
+    if given is None:
+        return None
+    whole = _whole(given, name)
+    if whole < 0:
+        raise Error(f"{name}: 0 or more, not {whole}")
+    return whole
 
 
-def _takes_argument(function) -> bool:
+def _takes_argument(function: Callable[..., Any]) -> bool:
     try:
         parameters = inspect.signature(function).parameters.values()
     except (TypeError, ValueError):
@@ -746,11 +815,11 @@ def _takes_argument(function) -> bool:
                for p in parameters)
 
 
-def _has_texts(given) -> bool:
+def _has_texts(given: Any) -> bool:
     return any(isinstance(one, str) or (isinstance(one, (list, tuple)) and _has_texts(one)) for one in given)
 
 
-def _box_around(places) -> dict:
+def _box_around(places: list[Array]) -> Keys:
     """An open box for pictures, where nothing is bounded."""
     if not places:
         return {"low": [0.0, 0.0, 0.0], "high": [1.0, 1.0, 1.0]}
@@ -761,7 +830,7 @@ def _box_around(places) -> dict:
     return {"low": middle - half, "high": middle + half}
 
 
-def _typed_law(keys: dict) -> dict:
+def _typed_law(keys: Keys) -> Keys:
     """Keys that are none of the table's are numbers with names in the formula."""
     told = _core.keys("influences")
     known = {plain(name): given for name, given in keys.items() if plain(name) in told}
@@ -771,7 +840,13 @@ def _typed_law(keys: dict) -> dict:
     return known
 
 
-def load(what, set: dict | None = None, steps: int | None = None, seed: int | None = None, threads: int | None = None):
+def load(
+    what: Path | Keys,
+    set: Keys | None = None,
+    steps: int | None = None,
+    seed: int | None = None,
+    threads: int | None = None,
+) -> Simulation:
     """A Simulation from the name of a shipped scenario, the path of a file, the text of one, or a dict of its tables.
 
     ``set``: other values of keys, by their paths, {"run.step": "5 fs"}. Nothing runs yet."""

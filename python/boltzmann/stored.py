@@ -6,17 +6,25 @@ import os
 import shutil
 import subprocess
 import tempfile
+from collections.abc import Callable, Iterable, Iterator
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
+import numpy.typing as npt
 
 from . import _core
+from ._types import Array, Keys, Path
 from .document import Document, plain
 from .errors import Error, unknown
 from .simulation import Simulation
 from .table import Picture, Table, words
 
+if TYPE_CHECKING:
+    from .notebook import Replay
+    from .sweeps import Sweep
 
-def read_table(path) -> Table:
+
+def read_table(path: Path) -> Table:
     """A table of numbers from a .csv file of a run."""
     header, columns = _core.read_csv(os.fspath(path))
     return Table(header, [np.frombuffer(numbers, dtype=np.float64) for numbers in columns])
@@ -25,14 +33,14 @@ def read_table(path) -> Table:
 class Frames:
     """One field of an ensemble, frame by frame; a frame is read when it is asked for."""
 
-    def __init__(self, stored, ensemble: str, field: str, components: int, vector: bool):
+    def __init__(self, stored: _core.Stored, ensemble: str, field: str, components: int, vector: bool) -> None:
         self._stored, self._ensemble, self._field = stored, ensemble, field
         self._components, self._vector = components, vector
 
     def __len__(self) -> int:
         return len(self._stored.steps())
 
-    def __getitem__(self, which):
+    def __getitem__(self, which: Any) -> Array:
         frames = range(len(self))
         if isinstance(which, slice):
             return np.array([self._read(frame) for frame in frames[which]])
@@ -41,14 +49,14 @@ class Frames:
         except (IndexError, TypeError):
             raise Error(f"there is no frame {which!r}; there are 0 to {len(self) - 1}, or -1 to -{len(self)}") from None
 
-    def _read(self, frame: int) -> np.ndarray:
+    def _read(self, frame: int) -> Array:
         numbers = np.frombuffer(self._stored.read(frame, self._ensemble, self._field), dtype=np.float64)
         return numbers.reshape(-1, self._components) if self._vector else numbers
 
-    def __iter__(self):
+    def __iter__(self) -> Iterator[Array]:
         return (self._read(frame) for frame in range(len(self)))
 
-    def __array__(self, dtype=None, copy=None):
+    def __array__(self, dtype: npt.DTypeLike = None, copy: bool | None = None) -> npt.NDArray[Any]:
         everything = self[:]
         return everything if dtype is None else everything.astype(dtype)
 
@@ -56,9 +64,9 @@ class Frames:
 class StoredEnsemble:
     """The particles of one ensemble in a trajectory: ``.position[frame]``, ``.velocity[-1]``, ..."""
 
-    def __init__(self, stored, name, class_name, dimension, fields):
+    def __init__(self, stored: _core.Stored, name: str, class_name: str, dimension: int, fields: list[Any]) -> None:
         self._stored, self.name, self.class_name, self.dimension = stored, name, class_name, dimension
-        self._fields = {field[0]: field for field in fields}
+        self._fields: dict[str, Any] = {field[0]: field for field in fields}
 
     @property
     def fields(self) -> list[str]:
@@ -81,24 +89,24 @@ class StoredEnsemble:
         components = self._fields[name][1]
         return Frames(self._stored, self.name, name, components, components > 1 or name in ("position", "velocity"))
 
-    def __dir__(self):
+    def __dir__(self) -> list[str]:
         return list(super().__dir__()) + self.fields
 
 
 class Trajectory:
     """``trajectory["atoms"].position[frame]``; numbers are in the simulation's base."""
 
-    def __init__(self, stored):
+    def __init__(self, stored: _core.Stored) -> None:
         self._stored = stored
         self._ensembles = {e[0]: StoredEnsemble(stored, *e) for e in stored.ensembles()}
 
     @property
-    def steps(self) -> np.ndarray:
+    def steps(self) -> Array:
         """Of its frames."""
         return np.array(self._stored.steps())
 
     @property
-    def times(self) -> np.ndarray:
+    def times(self) -> Array:
         """Of its frames, in the base."""
         return np.array(self._stored.times())
 
@@ -119,7 +127,7 @@ class Trajectory:
 class StoredRun:
     """The run in a folder of results."""
 
-    def __init__(self, folder: str):
+    def __init__(self, folder: str) -> None:
         self.folder = folder
         self._stored = _core.Stored(folder)
 
@@ -147,18 +155,18 @@ class StoredRun:
         """The frames of trajectory.h5."""
         return Trajectory(self._stored)
 
-    def frame(self, number: int = -1) -> dict:
+    def frame(self, number: int = -1) -> Keys:
         """A frame as a start: ``load=`` of an ensemble of the same name, or a value of "ensembles.NAME.load"."""
         return {"kind": "frame", "path": os.path.abspath(os.path.join(self.folder, "trajectory.h5")), "frame": int(number)}
 
-    def picture(self, drawing: str | None = None, frame: int = -1, **keys) -> Picture:
+    def picture(self, drawing: str | None = None, frame: int = -1, **keys: Any) -> Picture:
         """A frame, the last unless told, as ``bzm render`` draws it."""
         options = {plain(name): given for name, given in keys.items() if given is not None}
         if drawing is not None:
             options = {"drawing": drawing, **options}
         return Picture(self._stored.picture(int(frame), words(options)))
 
-    def movie(self, path, drawing: str | None = None, fps: int = 25, scale: float = 1, dark: bool = False, **keys) -> None:
+    def movie(self, path: Path, drawing: str | None = None, fps: int = 25, scale: float = 1, dark: bool = False, **keys: Any) -> None:
         """All frames as .mp4, .webm or .gif, by ffmpeg."""
         path = os.fspath(path)
         if os.path.splitext(path)[1] not in (".mp4", ".webm", ".gif"):
@@ -180,7 +188,7 @@ class StoredRun:
         if done.returncode != 0:
             raise Error(f"ffmpeg could not write '{path}': {done.stderr.strip()}")
 
-    def replay(self, views=(), frames: int = 100, megabytes: float = 8, height: int = 600):
+    def replay(self, views: Iterable[str] = (), frames: int = 100, megabytes: float = 8, height: int = 600) -> Replay:
         """The run as one page that plays by itself: in a notebook, on a site, from a file. ``views``: names of pictures
         and views of the run; at most so many frames and megabytes."""
         from .notebook import Replay
@@ -195,15 +203,19 @@ class StoredRun:
         return f"<stored run {self.title!r} in {self.folder}>"
 
 
-def open_run(folder) -> StoredRun:
-    """A stored run, finished or not: ``bz.open("results/copper")``."""
+def open_run(folder: Path) -> StoredRun | Sweep:
+    """A stored run, finished or not: ``bz.open("results/copper")``. Of the folder of a sweep, the Sweep."""
     folder = os.fspath(folder)
     if not os.path.isdir(folder):
         raise Error(f"there is no folder '{folder}' with a run")
+    if os.path.exists(os.path.join(folder, "sweep.toml")):
+        from .sweeps import stored_sweep
+
+        return stored_sweep(folder)
     return StoredRun(folder)
 
 
-def resume(folder, change: dict | None = None) -> Simulation:
+def resume(folder: Path, change: dict[int, Callable[..., Any]] | None = None) -> Simulation:
     """Goes on with a run of a scenario from its checkpoint, after Ctrl-C, a kill, in a new session: with the same bits,
     and with its files. ``run()`` goes to the planned end. What changed particles between steps is not stored: ``change``
     has it, {100: cool} for ``@sim.change(100)``."""

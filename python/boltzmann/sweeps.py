@@ -5,10 +5,10 @@ from __future__ import annotations
 import csv
 import os
 import tempfile
-
-import numpy as np
+from typing import Any
 
 from . import _core
+from ._types import Array, Keys, Path
 from .document import value
 from .errors import Error, ScenarioErrors, caller, unknown
 from .simulation import Simulation, load
@@ -16,7 +16,7 @@ from .stored import StoredRun, read_table
 from .table import Table
 
 
-def _number(cell: str):
+def _number(cell: str) -> float | str:
     try:
         return float(cell)
     except (TypeError, ValueError):
@@ -26,14 +26,14 @@ def _number(cell: str):
 class Sweep:
     """The table of means over the seeds, ``s["shock speed"]``, with their standard errors, ``s.error("shock speed")``."""
 
-    def __init__(self, folder: str, failed: int, keep=None):
+    def __init__(self, folder: str, failed: int, keep: tempfile.TemporaryDirectory[str] | None = None) -> None:
         self.folder, self.failed, self._keep = folder, failed, keep
         self.table = read_table(os.path.join(folder, "sweep.csv"))
 
-    def __getitem__(self, name: str) -> np.ndarray:
+    def __getitem__(self, name: str) -> Array:
         return self.table[name]
 
-    def error(self, name: str) -> np.ndarray:
+    def error(self, name: str) -> Array:
         """The standard error of a column's mean over the seeds."""
         for column in (f"{name} error", f"error of {name}", f"{name} +-"):
             if column in self.table:
@@ -41,7 +41,7 @@ class Sweep:
         raise Error(f"there is no error of '{name}': " + unknown("column", name, self.table.names))
 
     @property
-    def fits(self) -> list[dict]:
+    def fits(self) -> list[dict[str, float | str]]:
         """Straight lines through the points, where the scenario's pictures ask for one: the rows of fits.csv."""
         path = os.path.join(self.folder, "fits.csv")
         if not os.path.exists(path):
@@ -67,14 +67,23 @@ class Sweep:
         return self.table._repr_html_()
 
 
+def stored_sweep(folder: str) -> Sweep:
+    """The sweep in a folder of results. Error if some of its runs are still to be done."""
+    if not os.path.exists(os.path.join(folder, "sweep.csv")):
+        raise Error(f"the sweep in '{folder}' has not been finished; 'bzm resume {folder}' does the rest of its runs")
+    with open(os.path.join(folder, "runs.csv"), encoding="utf-8", newline="") as file:
+        failed = sum(row["state"] == "failed" for row in csv.DictReader(file))
+    return Sweep(folder, failed)
+
+
 def sweep(
-    what,
-    vary: dict | None = None,
+    what: Simulation | Path | Keys,
+    vary: dict[str, Any] | None = None,
     seeds: int | None = None,
     table: list[str] | None = None,
-    set: dict | None = None,
+    set: Keys | None = None,
     threads: int | None = None,
-    out=None,
+    out: Path | None = None,
     overwrite: bool = False,
     quiet: bool = True,
 ) -> Sweep:
@@ -101,7 +110,7 @@ def sweep(
         folder = os.fspath(out)
     try:
         failed, interrupted = _core.sweep(
-            sim._source(sim._document), assignments, varied, seeds, threads, folder, overwrite, quiet
+            sim._source(sim._document), assignments, varied, seeds, threads, folder, overwrite, quiet, out is not None
         )
     except ScenarioErrors as errors:
         located = sim._document.located(errors, place)

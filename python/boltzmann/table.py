@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator, Sequence
+from typing import Any
 
 import numpy as np
 
 from . import _core
+from ._types import Array, Keys, Path
 from .errors import Error, unknown
 
 _with_unit = re.compile(r"^(.*?) \((.*)\)$")
@@ -28,10 +31,10 @@ class Table:
 
     In a notebook it shows itself; ``plot()`` draws it, ``to_pandas()`` gives a data frame."""
 
-    def __init__(self, titles: list[str], columns: list):
+    def __init__(self, titles: Sequence[str], columns: Sequence[Any]) -> None:
         self.titles = list(titles)
         self.units: dict[str, str] = {}
-        self._columns: dict[str, np.ndarray] = {}
+        self._columns: dict[str, Array] = {}
         for title, column in zip(titles, columns):
             name, unit = name_and_unit(title)
             self._columns[name] = np.asarray(column, dtype=float)
@@ -45,18 +48,18 @@ class Table:
     def __len__(self) -> int:
         return len(next(iter(self._columns.values()))) if self._columns else 0
 
-    def __contains__(self, name) -> bool:
+    def __contains__(self, name: object) -> bool:
         return name in self._columns
 
-    def __iter__(self):
+    def __iter__(self) -> Iterator[str]:
         return iter(self._columns)
 
-    def __getitem__(self, name: str) -> np.ndarray:
+    def __getitem__(self, name: str) -> Array:
         if name in self._columns:
             return self._columns[name]
         raise Error(unknown("column", str(name), self._columns))
 
-    def __getattr__(self, name: str) -> np.ndarray:
+    def __getattr__(self, name: str) -> Array:
         if name.startswith("_"):
             raise AttributeError(name)
         for column in self._columns:
@@ -64,7 +67,7 @@ class Table:
                 return self._columns[column]
         raise AttributeError(unknown("column", name, self._columns))
 
-    def __dir__(self):
+    def __dir__(self) -> list[str]:
         return list(super().__dir__()) + [re.sub(r"\W+", "_", name).strip("_") for name in self._columns]
 
     def _shown(self, most: int) -> list[int]:
@@ -89,7 +92,7 @@ class Table:
         )
         return f"<table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table><p>{len(self)} rows</p>"
 
-    def to_pandas(self):
+    def to_pandas(self) -> Any:
         """A data frame of pandas, which must be installed; its columns are ``titles``."""
         import pandas
 
@@ -114,7 +117,7 @@ class Table:
 class Picture:
     """A drawing: it shows itself in a notebook; ``save("a.png")`` writes PNG, SVG or PDF."""
 
-    def __init__(self, canvas):
+    def __init__(self, canvas: _core.Canvas) -> None:
         self._canvas = canvas
 
     def png(self, width: int = 1200, height: int = 900, scale: float = 1, dark: bool = False) -> bytes:
@@ -125,7 +128,7 @@ class Picture:
         """The text of an SVG."""
         return self._canvas.bytes("svg", width, height, 1, dark).decode()
 
-    def save(self, path, width: int = 1200, height: int = 900, scale: float = 1, dark: bool = False) -> None:
+    def save(self, path: Path, width: int = 1200, height: int = 900, scale: float = 1, dark: bool = False) -> None:
         """Writes PNG, SVG or PDF, as the ending says."""
         import os
 
@@ -138,7 +141,7 @@ class Picture:
         return "<picture: .save('a.png') writes it, .png() and .svg() give it>"
 
 
-def words(options: dict) -> list[tuple[str, str]]:
+def words(options: Keys) -> list[tuple[str, str]]:
     """Keys of a picture as the command line has them."""
     from . import document
 

@@ -4,6 +4,7 @@
 #include <boltzmann/core/quantity_text.hpp>
 #include <boltzmann/files/trajectory.hpp>
 #include <boltzmann/particles/stored_ensemble.hpp>
+#include <boltzmann/scenario/loader.hpp>
 
 #include <pybind11/stl.h>
 
@@ -60,9 +61,21 @@ py::list fields_of(Core& core, std::string const& name) {
   return all;
 }
 
+/// The names of fields that are found from others.
+std::vector<std::string> derived_fields(Core& core, std::string const& name) {
+  AnyEnsemble const& ensemble = core.ensemble(name);
+  std::vector<std::string> names;
+  for (auto const& field : ensemble.fields())
+    if (core.simulation().derives(ensemble, field)) names.push_back(field.name);
+  return names;
+}
+
 void resize(Core& core, std::string const& name, std::size_t size, bool within_change) {
   if (!within_change) core.refuse_while_running("particles can't be added or taken away");
-  core.ensemble(name).resize(size);
+  AnyEnsemble& ensemble = core.ensemble(name);
+  if (auto const why = too_many(static_cast<double>(size), ensemble.stride() * sizeof(double)); !why.empty())
+    throw Error("resize: " + why);
+  ensemble.resize(size);
 }
 
 /// A number of the field's dimension, from "20 km/s".
@@ -111,7 +124,7 @@ void write_frame(std::string const& path, std::string const& name, int dimension
 
 /// What a mesh has on its nodes now: name, components (each an array, x fastest), nodes, low ends, spacings, unit.
 py::list mesh_fields(Core& core) {
-  core.simulation().check();
+  core.refresh();
   auto const fields = mesh_fields_of(core.simulation().schemes());
   if (fields.empty()) throw Error("there is no mesh in this simulation");
   py::list all;
@@ -139,6 +152,7 @@ void bind_ensembles(py::module_& module) {
   });
   module.def("size", [](Core& core, std::string const& name) { return core.ensemble(name).size(); });
   module.def("fields", fields_of);
+  module.def("derived_fields", derived_fields);
   module.def("resize", resize);
   module.def("number_of", number_of);
   module.def("base_of_unit", base_of_unit);

@@ -92,7 +92,7 @@ std::unique_ptr<Canvas> curves(std::vector<std::tuple<std::string, py::buffer, p
 
 py::tuple sweep(Source const& source, std::vector<std::string> const& set, std::vector<std::string> const& vary,
                 std::optional<std::int64_t> seeds, std::optional<int> threads, std::string const& folder, bool force,
-                bool quiet) {
+                bool quiet, bool lasting) {
   SweepOptions options;
   options.text = {source.text, source.file, source.name, source.folder};
   options.overrides.set = set;
@@ -102,8 +102,10 @@ py::tuple sweep(Source const& source, std::vector<std::string> const& set, std::
   options.folder = folder;
   options.quiet = quiet;
   options.force = force;
+  options.lasting = lasting;
   options.attend = [](Simulation& simulation) { Core::watch_signals(simulation); };
   SweepReport report;
+  Core::Sweeping const sweeping;
   {
     py::gil_scoped_release const others;
     auto scenario = load_scenario(options.text, options.overrides);
@@ -148,6 +150,7 @@ void bind_results(py::module_& module) {
         stored.write_all(out, words, figure(1200, 900, scale, dark));
       });
   module.def("sweep", sweep);
+  module.def("end_sweeps", &Core::end_sweeps);
 }
 
 }  // namespace boltzmann::python

@@ -120,6 +120,7 @@ void bind_simulation(py::module_& module) {  // long: a table, a line for each n
            })
       .def("record", [](Core& core, std::string folder) { core.record({.folder = std::move(folder)}); })
       .def("refuse_while_running", &Core::refuse_while_running)
+      .def("refresh", &Core::refresh)
       .def("stop", &Core::stop)
       .def("running", &Core::running)
       .def("running_elsewhere", &Core::running_elsewhere)

@@ -17,6 +17,9 @@
 namespace boltzmann::python {
 namespace {
 
+std::atomic<int> sweeps_under_way = 0;
+std::atomic<bool> program_ends = false;
+
 constexpr double seconds_between_looks = 0.05, seconds_between_progress = 0.2;
 
 ScenarioText text_of(Source const& source) { return {source.text, source.file, source.name, source.folder}; }
@@ -140,6 +143,7 @@ void Core::begin(RunOptions const& options) {
     start_ = conserved(simulation());
   }
   options_ = options;
+  simulation().clear_pause();
   running_ = true;
   runner_ = std::this_thread::get_id();
   failure_.reset();
@@ -157,6 +161,11 @@ struct Core::Ended {
     core.serve_requests();
   }
 };
+
+void Core::refresh() {
+  simulation().check();
+  simulation().refresh();
+}
 
 void Core::rethrow_failure() {
   if (!failure_) return;
@@ -238,6 +247,7 @@ void Core::look_at_clock(double now) {
 void Core::watch_signals(Simulation& simulation) {
   simulation.observe_progress(
       [count = std::int64_t{1}, each = std::int64_t{1}, last = Clock::now()](Simulation const&) mutable {
+        if (program_ends) return Interrupt::stop();  // the interpreter's lock may never come
         if (--count > 0) return;
         double const took = seconds_since(last);
         last = Clock::now();
@@ -248,7 +258,19 @@ void Core::watch_signals(Simulation& simulation) {
       });
 }
 
+Core::Sweeping::Sweeping() { ++sweeps_under_way; }
+Core::Sweeping::~Sweeping() { --sweeps_under_way; }
+
+void Core::end_sweeps() {
+  program_ends = true;
+  while (sweeps_under_way > 0) {
+    py::gil_scoped_release const others;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+}
+
 void Core::serve_requests() {
+  if (running_) simulation().store_rows();
   while (!requests_.empty()) {
     Request& request = *requests_.front();
     requests_.pop_front();
@@ -297,6 +319,7 @@ std::vector<std::string> Core::warnings() {
 std::size_t Core::watch(Source const& source, std::uint64_t every) {
   refuse_while_running("a diagnosis can't be added");
   if (every == 0) throw Error("every: a diagnosis looks every 1 or more steps, not every 0");
+  if (source.text.find("influence") != std::string::npos) simulation().observers_read_influences();
   auto watched = std::make_unique<Watched>(simulation(), scenario_->units);
   add_diagnosis(scenario_, text_of(source));
   watched->instruments.add(std::move(scenario_->diagnoses.back()));
@@ -319,12 +342,11 @@ std::size_t Core::watch(Source const& source, std::uint64_t every) {
 }
 
 MeasuredRows Core::measure(Source const& source) {
-  simulation().check();
+  refresh();
   add_diagnosis(scenario_, text_of(source));
   Instruments now(simulation(), scenario_->units);
   now.add(std::move(scenario_->diagnoses.back()));
   scenario_->diagnoses.pop_back();
-  for (auto* scheme : simulation().schemes()) scheme->complete(simulation().time());
   auto values = now.measure();
   now.show(values);
   MeasuredRows rows{now.header(), {}};
@@ -345,15 +367,14 @@ std::vector<Diagnosis const*> Core::instruments() {
 }
 
 Canvas Core::picture(PictureWords const& words) {
-  simulation().check();
+  refresh();
   Picture const picture = picture_by_words(*scenario_, words);
-  for (auto* scheme : simulation().schemes()) scheme->complete(simulation().time());
   return draw(picture, {simulation(), scenario_->units, scenario_->title.empty() ? scenario_->name : scenario_->title,
                         simulation().step(), simulation().time(), folder(), instruments()});
 }
 
 Checkpoint Core::save() {
-  simulation().check();
+  refresh();
   Checkpoint saved;
   saved.program_version = program_version;
   saved.scenario = scenario_->resolved;
@@ -400,7 +421,7 @@ std::string const& Core::folder() const {
 }
 
 std::string Core::digest() {
-  simulation().check();
+  refresh();
   std::uint64_t sum = 0;
   for (auto const& ensemble : scenario_->ensembles) {
     std::size_t const size = ensemble->size() * ensemble->stride() * sizeof(double);

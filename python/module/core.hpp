@@ -94,8 +94,12 @@ class Core {
   void record(RunOptions const& options);
   /// Does something that runs the simulation by itself, with its recording if it has one, as run() would.
   void attended(std::function<void(Recording* recording)> const& what);
-  /// Ends a run after its step, from wherever it is called.
-  void stop() { simulation().pause(); }
+  /// Brings influences and derived fields up to date, and refuses rows that no run would take.
+  void refresh();
+  /// Ends the present run after its step, from wherever it is called; between two runs it does nothing.
+  void stop() {
+    if (running_) simulation().pause();
+  }
   bool running() const { return running_; }
   /// Another thread is inside run().
   bool running_elsewhere() const { return running_ && runner_ != std::this_thread::get_id(); }
@@ -135,6 +139,13 @@ class Core {
   void after_step();
   /// What lets Ctrl-C stop a run that is not run by run(): of a sweep.
   static void watch_signals(Simulation& simulation);
+  /// While it lives, a sweep is under way.
+  struct Sweeping {
+    Sweeping();
+    ~Sweeping();
+  };
+  /// At the end of the program: sweeps of other threads end after their present step, and so does this.
+  static void end_sweeps();
 
  private:
   void begin(RunOptions const& options);

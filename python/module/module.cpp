@@ -47,8 +47,8 @@ void bind_catalogue(py::module_& module) {
   module.def("schema", scenario_schema);
   module.def("shipped", shipped_scenarios);
   module.def("find_scenario", find_scenario);
-  module.def("nearest",
-             [](std::string const& word, std::vector<std::string> const& words) { return did_you_mean(word, words); });
+  module.def("choices",
+             [](std::string const& word, std::vector<std::string> const& words) { return choices(word, words); });
   module.def("keys", [](std::string const& table) {
     for (auto const& one : scenario_tables())
       if (one.name == table) return one.options->keys();

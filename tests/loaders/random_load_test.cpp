@@ -9,7 +9,9 @@
 #include <tests/seed.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <string>
 
 namespace boltzmann::random_load_test {
 namespace {
@@ -336,6 +338,75 @@ TEST(Gravity, HeavyParticlesLieLower) {
   double const errors = 5 / std::sqrt(20000.0);  // five, of heights that vary as much as their mean
   EXPECT_NEAR(mean[0], 1, errors);               // k T / m g
   EXPECT_NEAR(mean[1], 0.5, 0.5 * errors);
+}
+
+// Kind of fault: what is added overlaps what is there. Siblings: 1D to 3D, periodic and open ends, parts of a box, several
+// ensembles, with and without a minimum distance of the new ones, a `where`; refused where there is no place.
+template <int D>
+void keeps_distance(Boundary boundary, double between) {
+  std::array<double, 3> low{}, high{};
+  std::array<Boundary, 3> ends{boundary, boundary, boundary};
+  for (int a = 0; a < D; ++a) high[a] = D == 1 ? 200 : D == 2 ? 20 : 9;
+  Box const box(D, low, high, ends);
+  Ensemble<Newton<D>> first("first", 40), second("second", 10), more("more", 30);
+  random_load(first, box, {.minimum_distance = 1.2, .seed = 3});
+  random_load(second, box, {.seed = 4});
+  RandomLoadOptions options{.minimum_distance = between, .seed = 5};
+  options.others = {&first, &second};
+  options.distance_to_others = 1.1;
+  random_load(more, box, options);
+  auto const distance = [&](auto const& p, auto const& q) {
+    std::array<double, 3> d{};
+    for (int a = 0; a < D; ++a) d[a] = p.position[a] - q.position[a];
+    box.nearest_image(d.data());
+    return std::sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+  };
+  for (auto const& p : more) {
+    for (auto const& q : first) EXPECT_GE(distance(p, q), 1.1);
+    for (auto const& q : second) EXPECT_GE(distance(p, q), 1.1);
+    for (auto const& q : more) {
+      if (&p != &q) EXPECT_GE(distance(p, q), between);
+    }
+  }
+  // Those whose first place was free are where they would be without others.
+  Ensemble<Newton<D>> alone("more", 30);
+  random_load(alone, box, {.minimum_distance = between, .seed = 5});
+  EXPECT_EQ(alone[0].position[0] == more[0].position[0], [&] {
+    for (auto const* other : {&first, &second})
+      for (auto const& q : *other)
+        if (distance(alone[0], q) < 1.1) return false;
+    return true;
+  }());
+}
+
+TEST(Random, KeepsADistanceFromOthersThatAreThere) {
+  for (double const between : {0.0, 0.5})
+    for (Boundary const boundary : {Boundary::periodic, Boundary::open}) {
+      keeps_distance<1>(boundary, between);
+      keeps_distance<2>(boundary, between);
+      keeps_distance<3>(boundary, between);
+    }
+}
+
+TEST(Random, SaysWhenOthersLeaveNoPlace) {
+  Box const box(2, {0, 0, 0}, {10, 10, 1}, {Boundary::periodic, Boundary::periodic, Boundary::periodic});
+  Ensemble<Newton<2>> there("there", 100), more("more", 3);
+  block_load(there, {Lattice::square, 1, {10, 10, 1}});
+  for (double const between : {0.0, 0.3}) {
+    RandomLoadOptions options{.minimum_distance = between};
+    options.others = {&there};
+    options.distance_to_others = 0.9;
+    try {
+      random_load(more, box, options);
+      FAIL() << "there is no place";
+    } catch (Error const& error) {
+      EXPECT_NE(std::string(error.what()).find("in 20000 draws no place was found for particle 0 of 3"),
+                std::string::npos)
+          << error.what();
+    }
+    options.distance_to_others = 0.6;
+    EXPECT_NO_THROW(random_load(more, box, options));
+  }
 }
 
 }  // namespace

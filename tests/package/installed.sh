@@ -43,7 +43,7 @@ grep -q -- "-I$folder/there/include " "$folder/log" || fail "bzm build took othe
 ran "bzm build" by-bzm
 PKG_CONFIG_PATH=$(dirname "$(find "$folder/there" -name boltzmann.pc)")
 export PKG_CONFIG_PATH
-g++ -O3 -DNDEBUG user.cpp -o by-pkg-config $(pkg-config --define-variable=prefix="$folder/there" --cflags --libs boltzmann) || fail "pkg-config"
+g++ -O3 -DNDEBUG user.cpp -o by-pkg-config $(pkg-config --cflags --libs boltzmann) || fail "pkg-config"
 ran pkg-config by-pkg-config
 cmake -S . -B build -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH="$folder/there" > "$folder/log" 2>&1 || fail "find_package: $(cat "$folder/log")"
 cmake --build build > "$folder/log" 2>&1 || fail "find_package: $(cat "$folder/log")"

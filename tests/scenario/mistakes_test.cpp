@@ -176,7 +176,7 @@ std::vector<Mistake> const rows{
     {"unknown key",
      with("step = 0.01", "step = 0.01\nsede = 3"),
      "13:1",
-     {"unknown key 'sede' in [run]", "allowed are step, steps, time, seed", "did you mean 'seed'?"}},
+     {"unknown key 'sede' in [run]", "Allowed are step, steps, time, seed", "did you mean 'seed'?"}},
     {"unknown table", plus("[putput]\nx = 1\n"), "37:2", {"unknown table 'putput'", "did you mean 'output'?"}},
     {"unknown key of a law",
      with("r0 = 4", "r0 = 4\nsigma = 1"),

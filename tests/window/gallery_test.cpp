@@ -357,6 +357,35 @@ TEST_F(GalleryTest, AKeyIsLeftOut) {
   EXPECT_FALSE(find(needed.at("errors"), "path", "run.step").is_null()) << needed.dump();
 }
 
+// Kind of fault: the form helps with another law than the one that is chosen. Siblings: keys that are there, keys that are
+// missing and needed, their units, messages, and a law that is chosen back.
+TEST_F(GalleryTest, HelpIsThatOfTheLawThatIsChosen) {
+  put("argon.toml",
+      "[units]\nbase = \"custom\"\nlength = \"1 angstrom\"\nmass = \"1 amu\"\ntime = \"1 ps\"\n[box]\nlow = [0, 0]\n"
+      "high = [20, 20]\nboundary = \"periodic\"\n[run]\nstep = \"1 fs\"\nsteps = 3\ncutoff = 8\n[[ensembles]]\n"
+      "name = \"atoms\"\nclass = \"Newton\"\nmass = 40\nload = { kind = \"positions\", positions = [[1, 1], [5, 5]] }\n"
+      "[[influences]]\nlaw = \"lennard-jones\"\non = \"atoms\"\ndepth = \"0.01 eV\"\nr0 = \"3.8 angstrom\"\n");
+  json const refused = gallery.check("argon", {{"influences.0.law", "\"morse\""}});
+  ASSERT_TRUE(refused.contains("errors")) << refused;
+  for (auto const& one : refused.at("errors")) {
+    EXPECT_EQ(one.at("message").get<std::string>().find(folder.path), std::string::npos) << one;
+    EXPECT_EQ(one.at("path"), "influences.0.a") << one;
+    EXPECT_NE(one.at("message").get<std::string>().find("a = \"1 1/angstrom\""), std::string::npos) << one;
+  }
+  json const a = find(refused.at("absent"), "path", "influences.0.a");
+  ASSERT_FALSE(a.is_null());
+  EXPECT_EQ(a.at("otherwise"), "needed");
+  EXPECT_EQ(a.at("unit"), "1/angstrom");
+  EXPECT_NE(a.at("doc").get<std::string>().find("steepness"), std::string::npos);
+  EXPECT_EQ(find(refused.at("parameters"), "path", "influences.0.r0").at("doc"), "distance of the minimum");
+  json const good = gallery.check("argon", {{"influences.0.law", "\"morse\""}, {"influences.0.a", "\"2 1/angstrom\""}});
+  ASSERT_TRUE(good.contains("ok")) << good;
+  EXPECT_NE(find(good.at("parameters"), "path", "influences.0.a").at("doc").get<std::string>().find("steepness"),
+            std::string::npos);
+  json const rydberg = gallery.check("argon", {{"influences.0.law", "\"rydberg\""}});
+  EXPECT_EQ(find(rydberg.at("absent"), "path", "influences.0.a").at("unit"), "");
+}
+
 TEST_F(GalleryTest, SavesNothingThatIsWrong) {
   json const reply = gallery.save("copper", {{"run.step", "0"}}, "wrong", false);
   ASSERT_EQ(reply.at("errors").size(), 1U);

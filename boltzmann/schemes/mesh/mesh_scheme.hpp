@@ -126,6 +126,9 @@ class MeshScheme : public Scheme {
   /// Nothing if a stage is the user's.
   std::optional<std::uint64_t> revision() const override;
   void complete(double time) override { pairs_.complete(time); }
+  bool derives(AnyEnsemble const& ensemble, Field const& field) const override {
+    return pairs_.derives(ensemble, field);
+  }
   void calculate(double time = 0) override;
   std::unique_ptr<FusedSteps> fused_steps(std::vector<Mover> const& movers, double dt) override;
   std::vector<Rotation> rotations(AnyEnsemble const& ensemble, bool taken) override;

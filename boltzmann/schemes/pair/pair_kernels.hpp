@@ -21,6 +21,23 @@ template <class P, class Q, class Law, int W>
 inline constexpr bool gives_influence =
     sizeof(typename P::Influence) / sizeof(double) == Sum<Pass::influence, W, P, Q, Law>::components;
 
+/// A text that compilers print among template arguments.
+template <std::size_t n>
+struct PrintedText {
+  char text[n]{};
+  consteval PrintedText(char const (&from)[n]) {
+    for (std::size_t i = 0; i < n; ++i) text[i] = from[i];
+  }
+};
+
+/// Compiles law(p, ...) for packs of particles, as the first of all its uses: if that fails, the compiler's first lines
+/// print the hint.
+template <PrintedText hint, class Law, class... Particles>
+constexpr bool compiles_for_packs() {
+  return requires(Law const& law, rebind_t<Particles, Pack<double>> const&... particles) { law(particles...); };
+}
+inline constexpr PrintedText law_hint{"in a law write sqrt without std:: (and exp, pow, abs, min, max, ...)"};
+
 }  // namespace detail
 
 /// True if law(p, q) can be called for these classes with packs.

@@ -37,6 +37,11 @@ void PairScheme::complete(double) {
     }
 }
 
+bool PairScheme::derives(AnyEnsemble const& ensemble, Field const& field) const {
+  int const k = supervises(ensemble) ? ensemble.number_driven(field) : -1;
+  return k >= 0 && ensemble.driven()[static_cast<std::size_t>(k)].sum;
+}
+
 void PairScheme::add_influences(double time) { calculate(time, false); }
 
 std::string PairScheme::undivided() const { return quantum_ > 0 ? "the reversible leap-frog" : ""; }

@@ -40,7 +40,7 @@ class PairScheme final : public Scheme, private VelocityInfluences {
   }
   template <class P, class Law>
   requires(!std::same_as<Law, FormulaLaw>) void internal(Ensemble<P>& ensemble, Law const& law, double cutoff) {
-    static_assert(PairLaw<Law, P, P>,
+    static_assert(detail::compiles_for_packs<detail::law_hint, Law, P, P>(),
                   "a pair law is a function law(p, q) of two particles, generic in the number type, [](auto const& p, "
                   "auto const& q) { ... }, which reads fields that their classes have");
     add_pairs(ensemble, ensemble, near_kernels<P, P, Law>(), keep(law), traits_of(law), cutoff);
@@ -53,7 +53,7 @@ class PairScheme final : public Scheme, private VelocityInfluences {
   }
   template <class P, class Q, class Law>
   requires(!std::same_as<Law, FormulaLaw>) void between(Ensemble<P>& a, Ensemble<Q>& b, Law const& law, double cutoff) {
-    static_assert(PairLaw<Law, P, Q>,
+    static_assert(detail::compiles_for_packs<detail::law_hint, Law, P, Q>(),
                   "a pair law is a function law(p, q) of two particles, generic in the number type, [](auto const& p, "
                   "auto const& q) { ... }, which reads fields that their classes have");
     auto const kept = keep(law);
@@ -66,7 +66,7 @@ class PairScheme final : public Scheme, private VelocityInfluences {
   template <class P, class Law>
   requires(!std::same_as<Law, FormulaLaw>) void connect(Ensemble<P>& ensemble,
                                                         std::vector<Connection> const& connections, Law const& law) {
-    static_assert(PairLaw<Law, P, P>,
+    static_assert(detail::compiles_for_packs<detail::law_hint, Law, P, P>(),
                   "a pair law is a function law(p, q) of two particles, generic in the number type, [](auto const& p, "
                   "auto const& q) { ... }, which reads fields that their classes have");
     add_connections(ensemble, connections, connection_kernels<P, Law>(), keep(law), traits_of(law));
@@ -133,6 +133,7 @@ class PairScheme final : public Scheme, private VelocityInfluences {
   std::optional<std::uint64_t> revision() const override;
   /// Fields that are sums, as laws have given them at the last calculation.
   void complete(double time) override;
+  bool derives(AnyEnsemble const& ensemble, Field const& field) const override;
   SmallSystem small_system() override;
   EnergyAndVirial measure(double time = 0) override { return measure(time, true); }
   /// `zeros`: where no pair acts, virial_per_particle has zeros; else it is empty then.

@@ -504,6 +504,12 @@ void SmoothScheme::add_influences(double time) {
 
 void SmoothScheme::complete(double) { find(Until::state, true); }
 
+bool SmoothScheme::derives(AnyEnsemble const& ensemble, Field const& field) const {
+  if (!supervises(ensemble)) return false;
+  return field.name == "pressure" || field.name == "temperature" || field.name == "sound_speed" ||
+         (field.name == "density" && density_from_ == DensityFrom::summation);
+}
+
 void SmoothScheme::divide(Division* division) {
   if (division) {
     std::vector<AnyEnsemble*> all;

@@ -97,6 +97,7 @@ class SmoothScheme final : public Scheme {
   /// Nothing if a law from outside reads what is not in it.
   std::optional<std::uint64_t> revision() const override;
   void complete(double time) override;
+  bool derives(AnyEnsemble const& ensemble, Field const& field) const override;
   EnergyAndVirial measure(double time = 0) override;
   bool velocity_dependent(AnyEnsemble const& ensemble) const override { return supervises(ensemble); }
   double length_scale(AnyEnsemble const& ensemble) const override;

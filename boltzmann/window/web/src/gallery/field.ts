@@ -13,13 +13,14 @@ export class Field {
   private readonly input: Input;
   private readonly back: HTMLButtonElement;
   private readonly trouble: HTMLElement;
+  private readonly help: HTMLElement;
   private curve: HTMLElement | null = null;
   /** What the scenario has, as it is shown. */
   readonly original: string;
   private told = "";
 
   constructor(
-    readonly parameter: Parameter,
+    public parameter: Parameter,
     number: number,
     private readonly absent: boolean,
     private readonly edited: (field: Field) => void,
@@ -31,8 +32,9 @@ export class Field {
     this.back = h("button", { type: "button", class: "gallery-back-to", click: () => this.reset() });
     this.back.hidden = true;
     this.trouble = h("p", { class: "gallery-trouble", id: `${id}-trouble`, "aria-live": "polite" });
-    const hint = this.hint();
-    this.input.setAttribute("aria-describedby", hint ? `${id}-hint ${id}-trouble` : `${id}-trouble`);
+    this.help = h("p", { class: "gallery-hint", id: `${id}-hint` }, h("span", {}));
+    this.tellHint();
+    this.input.setAttribute("aria-describedby", `${id}-hint ${id}-trouble`);
     const label = h("label", { for: id }, parameter.name.replace(/_/g, " "));
     this.element = h(
       "div",
@@ -40,7 +42,7 @@ export class Field {
       h("div", { class: "gallery-label" }, label, this.back),
       h("div", { class: "gallery-input" }, this.input),
       this.trouble,
-      hint ? h("p", { class: "gallery-hint", id: `${id}-hint`, title: hint }, h("span", {}, hint)) : null,
+      this.help,
     );
     this.input.addEventListener("input", () => {
       this.told = "";
@@ -70,6 +72,12 @@ export class Field {
   /** What the window has said about it; empty: nothing. */
   tell(error: string): void {
     this.told = error;
+    this.update();
+  }
+  /** What it means now: another law may have given the key another meaning, other limits and units. */
+  describe({ doc, unit, units, low, high, low_excluded, otherwise }: Parameter): void {
+    this.parameter = { ...this.parameter, doc, unit, units, low, high, low_excluded, otherwise };
+    this.tellHint();
     this.update();
   }
   /** What the law that is typed here says; null: it is not known. */
@@ -125,6 +133,13 @@ export class Field {
     const allowed = kind === "vector" ? "" : limits(this.parameter);
     const otherwise = this.absent && this.otherwise.length > longest ? `default: ${this.otherwise}` : "";
     return [comment, doc, allowed, units.length > 0 ? `in ${units.join(", ")}` : "", otherwise].filter(Boolean).join(" · ");
+  }
+
+  private tellHint(): void {
+    const hint = this.hint();
+    this.help.hidden = hint === "";
+    this.help.title = hint;
+    this.help.firstElementChild!.textContent = hint;
   }
 
   private update(): void {

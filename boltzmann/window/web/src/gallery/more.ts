@@ -21,6 +21,10 @@ export class More {
     const offered = new Set(keys.map(({ path }) => path));
     for (const field of this.fields) if (!offered.has(field.parameter.path) && !field.changed) field.element.remove();
     this.fields = this.fields.filter((field) => offered.has(field.parameter.path) || field.changed);
+    for (const field of this.fields) {
+      const now = keys.find(({ path }) => path === field.parameter.path);
+      if (now) field.describe(now);
+    }
     const known = new Set(this.fields.map((field) => field.parameter.path));
     const added = keys.filter(({ path }) => !known.has(path)).map(make);
     this.list.append(...added.map((field) => field.element));

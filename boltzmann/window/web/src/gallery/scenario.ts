@@ -46,6 +46,8 @@ export class ScenarioPage {
   private readonly present: Field[];
   private readonly groups = new Map<string, HTMLElement>();
   private readonly more = new Map<string, More>();
+  /** Keys that are missing and needed. */
+  private needed: Field[] = [];
   private readonly form = h("form", { class: "gallery-form", novalidate: true });
   private readonly general = h("p", { class: "gallery-trouble", id: "gallery-trouble", role: "alert" });
   private readonly state = h("p", { class: "gallery-state", id: "gallery-state", role: "status" });
@@ -129,7 +131,7 @@ export class ScenarioPage {
   }
 
   private get fields(): Field[] {
-    return [...this.present, ...[...this.more.values()].flatMap(({ fields }) => fields)];
+    return [...this.present, ...this.needed, ...[...this.more.values()].flatMap(({ fields }) => fields)];
   }
 
   /** As a user had it before, if the page was left. */
@@ -154,7 +156,9 @@ export class ScenarioPage {
   private offer(absent: Parameter[]): void {
     const tables = new Map<string, Parameter[]>();
     const own = new Set(this.present.map(({ parameter }) => parameter.path)); // left out by an empty field
-    for (const key of absent.filter(({ path }) => !own.has(path))) {
+    const others = absent.filter(({ path }) => !own.has(path));
+    this.need(others.filter(({ otherwise }) => otherwise === "needed"));
+    for (const key of others.filter(({ otherwise }) => otherwise !== "needed")) {
       const table = key.path.slice(0, key.path.lastIndexOf("."));
       tables.set(table, [...(tables.get(table) ?? []), key]);
     }
@@ -167,6 +171,34 @@ export class ScenarioPage {
         this.group(group).append(more.element);
       }
       more.offer(keys, (key) => this.field(key, true));
+    }
+  }
+
+  /** Puts keys that are needed beside those that their tables have. */
+  private need(keys: Parameter[]): void {
+    const wanted = new Set(keys.map(({ path }) => path));
+    for (const field of this.needed) if (!wanted.has(field.parameter.path) && !field.changed) field.element.remove();
+    this.needed = this.needed.filter((field) => wanted.has(field.parameter.path) || field.changed);
+    for (const key of keys) {
+      const known = this.fields.find((field) => field.parameter.path === key.path);
+      if (known) {
+        known.describe(key);
+        continue;
+      }
+      const table = key.path.slice(0, key.path.lastIndexOf(".") + 1);
+      const beside = [...this.present, ...this.needed].filter((field) => field.parameter.path.startsWith(table)).pop();
+      const made = this.field(key, true);
+      if (beside) beside.element.after(made.element);
+      else this.group(key.group).querySelector(".gallery-fields")!.append(made.element);
+      this.needed.push(made);
+    }
+  }
+
+  /** What the keys that are there mean now. */
+  private describe(parameters: Parameter[]): void {
+    for (const field of this.present) {
+      const now = parameters.find(({ path }) => path === field.parameter.path);
+      if (now) field.describe(now);
     }
   }
 
@@ -281,6 +313,7 @@ export class ScenarioPage {
     const reply = await this.say({ do: "check", name: this.scenario.name, set: this.set });
     if (this.gone || number !== this.asked) return;
     const before = this.changed.length;
+    if (Array.isArray(reply.parameters)) this.describe(reply.parameters as Parameter[]);
     if (Array.isArray(reply.absent)) this.offer(reply.absent as Parameter[]);
     this.show(reply);
     this.draw((reply.curves as Curve[] | undefined) ?? []);
