@@ -44,6 +44,9 @@ class GreenKubo final : public Diagnosis {
   bool needs_energies() const override { return options_.quantity == Transport::heat_conductivity; }
   bool needs_virial() const override { return options_.quantity != Transport::conductivity; }
   std::vector<GatheredTable> tables() const override;
+  std::vector<std::string> warnings(PlannedRun const& run, UnitSystem const& units) const override {
+    return too_few_looks(run, units, "green-kubo", name(), run.every, options_.since, options_.count);
+  }
   std::vector<double> state() const override;
   void restore(std::span<double const> state) override;
 

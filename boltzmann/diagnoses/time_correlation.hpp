@@ -36,6 +36,7 @@ class TimeCorrelation : public Diagnosis {
   void follow(Sample const& sample) final;
   void measure(Sample const& sample, std::vector<double>& values) final;
   bool by_number() const final { return true; }
+  std::vector<std::string> warnings(PlannedRun const& run, UnitSystem const& units) const final;
   std::vector<double> state() const final;
   void restore(std::span<double const> state) final;
 
@@ -59,6 +60,8 @@ class TimeCorrelation : public Diagnosis {
   /// The sum of what particles give, products of now and then or how far they are, and of its squares.
   virtual std::array<double, 2> compared(std::span<double const> then, std::span<double const> now) const = 0;
   virtual void add_values(Followed const& followed, std::vector<double>& values) const = 0;
+  /// Its word in scenarios.
+  virtual std::string kind() const = 0;
 
   int dimension() const { return dimension_; }
   std::vector<Followed> const& followed() const { return followed_; }
@@ -102,6 +105,7 @@ class VelocityAutocorrelation final : public TimeCorrelation {
   void see(AnyEnsemble const& ensemble, Box const& box, bool first, Followed& followed) const override;
   std::array<double, 2> compared(std::span<double const> then, std::span<double const> now) const override;
   void add_values(Followed const& followed, std::vector<double>& values) const override;
+  std::string kind() const override { return "velocity-autocorrelation"; }
 };
 
 /// <|r(t) - r(0)|^2>, followed through periodic axes. Column: the diffusion coefficient, the slope of its later half
@@ -119,6 +123,7 @@ class MeanSquareDisplacement final : public TimeCorrelation {
   void see(AnyEnsemble const& ensemble, Box const& box, bool first, Followed& followed) const override;
   std::array<double, 2> compared(std::span<double const> then, std::span<double const> now) const override;
   void add_values(Followed const& followed, std::vector<double>& values) const override;
+  std::string kind() const override { return "mean-square-displacement"; }
 };
 
 /// Up to each point, by the trapezoidal rule.
