@@ -21,7 +21,7 @@ namespace boltzmann::bzm {
 /// end.
 class WaitingLine {
  public:
-  explicit WaitingLine(bool shown) {
+  explicit WaitingLine(bool shown, std::chrono::milliseconds patience = std::chrono::seconds(4)) : patience_(patience) {
     if (shown && team().first()) thread_ = std::thread([this] { run(); });
   }
   ~WaitingLine() {
@@ -49,7 +49,7 @@ class WaitingLine {
     std::unique_lock lock(mutex_);
     bool any = false;
     while (!ended_) {
-      changed_.wait_for(lock, std::chrono::milliseconds(any ? 500 : 4000), [this] { return ended_; });
+      changed_.wait_for(lock, any ? std::chrono::milliseconds(500) : patience_, [this] { return ended_; });
       if (ended_ || what_.empty()) continue;
       if (terminal)
         fmt::print(stderr, "\r{}, {:.0f} s\033[K", what_, seconds_since(start));
@@ -61,6 +61,7 @@ class WaitingLine {
     if (any && terminal) std::fputs("\r\033[K", stderr);
   }
 
+  std::chrono::milliseconds const patience_;
   std::mutex mutex_;
   std::condition_variable changed_;
   std::string what_;

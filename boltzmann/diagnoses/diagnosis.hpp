@@ -39,18 +39,6 @@ struct GatheredTable {
   std::vector<std::vector<double>> values = {};  ///< of each column as many; none before there is something
 };
 
-/// A run that is about to begin.
-struct PlannedRun {
-  double time = 0;         ///< at which it begins,
-  double step_size = 0;    ///< as it is now; steps may vary
-  std::int64_t steps = 0;  ///< from there to its end
-  std::int64_t every = 1;  ///< steps between two rows of diagnoses
-
-  double end() const { return time + static_cast<double>(steps) * step_size; }
-  /// How often something looks that looks every so many steps, from a time on.
-  std::int64_t looks(std::int64_t interval, double since) const;
-};
-
 class Diagnosis {
  public:
   virtual ~Diagnosis() = default;
@@ -74,10 +62,6 @@ class Diagnosis {
   virtual void check(Box const&) const {}
   /// Functions that it gathers from all looks so far: files at the end of a run, and the drawing `curves`.
   virtual std::vector<GatheredTable> tables() const { return {}; }
-  /// The time of the first look that counts, where one was asked for.
-  virtual double since() const { return 0; }
-  /// What one should know before a run: lines that begin with "warning: ", for example that the run is too short for it.
-  virtual std::vector<std::string> warnings(PlannedRun const&, UnitSystem const&) const { return {}; }
   /// What a run says of it at its end, a line each.
   virtual std::vector<std::string> report(UnitSystem const&) const { return {}; }
   /// What it remembers from earlier looks (initial velocities of a group, ...), for checkpoints.
@@ -89,11 +73,6 @@ class Diagnosis {
 /// Error where a box is sheared, of a diagnosis that finds images, or follows particles, through whole lengths alone, or
 /// is of equilibrium.
 void refuse_shear(Box const& box, char const* diagnosis);
-
-/// A line of warning if something that is named `what` compares looks up to `count` of them apart, and the run has too few:
-/// then there is no `result`.
-std::vector<std::string> too_few_looks(PlannedRun const& run, UnitSystem const& units, std::string const& what,
-                                       std::string const& result, std::int64_t every, double since, std::size_t count);
 
 /// Why a simulation with such measures can't give what the diagnosis needs, in one line; empty if it can.
 std::string refusal(Diagnosis const& diagnosis, EnergyAndVirial const& measures);

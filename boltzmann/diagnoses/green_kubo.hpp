@@ -39,14 +39,12 @@ class GreenKubo final : public Diagnosis {
   GreenKubo(std::vector<AnyEnsemble const*> const& available, Options const& options);
 
   std::vector<Column> columns() const override;
+  Options const& options() const { return options_; }
   void check(Box const& box) const override { refuse_shear(box, "green-kubo"); }
   void measure(Sample const& sample, std::vector<double>& values) override;
   bool needs_energies() const override { return options_.quantity == Transport::heat_conductivity; }
   bool needs_virial() const override { return options_.quantity != Transport::conductivity; }
   std::vector<GatheredTable> tables() const override;
-  std::vector<std::string> warnings(PlannedRun const& run, UnitSystem const& units) const override {
-    return too_few_looks(run, units, "green-kubo", name(), run.every, options_.since, options_.count);
-  }
   std::vector<double> state() const override;
   void restore(std::span<double const> state) override;
 

@@ -79,7 +79,6 @@ class Shock final : public Diagnosis {
 
   bool needs_energies() const override { return true; }
   std::vector<Column> columns() const override;
-  double since() const override { return options_.since; }
   /// Error at the first look if there are no particles, the axis is periodic, the matter is too short for the windows,
   /// or it can't be told which end drives: no wall runs into the matter by more than five standard errors of its mean
   /// velocity.

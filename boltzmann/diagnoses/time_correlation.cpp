@@ -130,11 +130,6 @@ void TimeCorrelation::measure(Sample const& sample, std::vector<double>& values)
   for (auto const& one : followed_) add_values(one, values);
 }
 
-std::vector<std::string> TimeCorrelation::warnings(PlannedRun const& run, UnitSystem const& units) const {
-  return too_few_looks(run, units, kind(), "diffusion coefficient", static_cast<std::int64_t>(options_.every),
-                       options_.since, options_.count);
-}
-
 std::vector<double> TimeCorrelation::lags(Followed const& followed) const {
   std::vector<double> lags;
   for (std::size_t k = 0; k < followed.numbers.size() && followed.numbers[k] > 0; ++k)

@@ -30,13 +30,13 @@ class TimeCorrelation : public Diagnosis {
  public:
   using Options = TimeCorrelationOptions;
 
+  Options const& options() const { return options_; }
   bool follows() const final { return true; }
   void check(Box const& box) const final { refuse_shear(box, "velocity-autocorrelation and mean-square-displacement"); }
   /// Error if the number of particles has changed, or looks are not at equal times.
   void follow(Sample const& sample) final;
   void measure(Sample const& sample, std::vector<double>& values) final;
   bool by_number() const final { return true; }
-  std::vector<std::string> warnings(PlannedRun const& run, UnitSystem const& units) const final;
   std::vector<double> state() const final;
   void restore(std::span<double const> state) final;
 
@@ -60,8 +60,6 @@ class TimeCorrelation : public Diagnosis {
   /// The sum of what particles give, products of now and then or how far they are, and of its squares.
   virtual std::array<double, 2> compared(std::span<double const> then, std::span<double const> now) const = 0;
   virtual void add_values(Followed const& followed, std::vector<double>& values) const = 0;
-  /// Its word in scenarios.
-  virtual std::string kind() const = 0;
 
   int dimension() const { return dimension_; }
   std::vector<Followed> const& followed() const { return followed_; }
@@ -74,7 +72,6 @@ class TimeCorrelation : public Diagnosis {
   std::vector<double> lags(Followed const& followed) const;
   std::vector<double> means(Followed const& followed) const;
   double interval() const { return interval_; }
-  Options const& options() const { return options_; }
 
  private:
   void note_time(Sample const& sample);
@@ -105,7 +102,6 @@ class VelocityAutocorrelation final : public TimeCorrelation {
   void see(AnyEnsemble const& ensemble, Box const& box, bool first, Followed& followed) const override;
   std::array<double, 2> compared(std::span<double const> then, std::span<double const> now) const override;
   void add_values(Followed const& followed, std::vector<double>& values) const override;
-  std::string kind() const override { return "velocity-autocorrelation"; }
 };
 
 /// <|r(t) - r(0)|^2>, followed through periodic axes. Column: the diffusion coefficient, the slope of its later half
@@ -123,7 +119,6 @@ class MeanSquareDisplacement final : public TimeCorrelation {
   void see(AnyEnsemble const& ensemble, Box const& box, bool first, Followed& followed) const override;
   std::array<double, 2> compared(std::span<double const> then, std::span<double const> now) const override;
   void add_values(Followed const& followed, std::vector<double>& values) const override;
-  std::string kind() const override { return "mean-square-displacement"; }
 };
 
 /// Up to each point, by the trapezoidal rule.

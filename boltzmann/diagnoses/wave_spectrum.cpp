@@ -81,16 +81,6 @@ void WaveSpectrum::restore(std::span<double const> state) {
   amplitudes_.assign(state.begin() + head, state.end());
 }
 
-std::vector<std::string> WaveSpectrum::warnings(PlannedRun const& run, UnitSystem const&) const {
-  std::int64_t const looks = run.looks(run.every, 0);
-  if (looks >= static_cast<std::int64_t>(min_looks)) return {};
-  return {fmt::format("warning: wave-spectrum: it needs {} rows of diagnoses, the run has {}: no spectrum; {}",
-                      min_looks, looks,
-                      run.steps >= static_cast<std::int64_t>(min_looks)
-                          ? fmt::format("[output] diagnoses = {}", run.steps / static_cast<std::int64_t>(min_looks))
-                          : "run longer")};
-}
-
 bool WaveSpectrum::enough() const { return looks_ >= min_looks && std::abs(interval_) > 0; }
 
 WavePower WaveSpectrum::power() const {

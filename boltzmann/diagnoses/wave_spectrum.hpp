@@ -31,7 +31,6 @@ class WaveSpectrum final : public Diagnosis {
   bool needs_mesh() const override { return true; }
   /// Error if there is no mesh, no such quantity, the axis is not periodic, or the looks are not at equal times.
   void measure(Sample const& sample, std::vector<double>& values) override;
-  std::vector<std::string> warnings(PlannedRun const& run, UnitSystem const&) const override;
   /// All looks so far.
   std::vector<double> state() const override;
   void restore(std::span<double const> state) override;

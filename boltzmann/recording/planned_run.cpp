@@ -1,68 +1,123 @@
 // Whether a run is long enough for what is measured in it.
+#include <boltzmann/diagnoses/average.hpp>
+#include <boltzmann/diagnoses/diffusion.hpp>
+#include <boltzmann/diagnoses/green_kubo.hpp>
+#include <boltzmann/diagnoses/heat_flux.hpp>
+#include <boltzmann/diagnoses/mean_profile.hpp>
+#include <boltzmann/diagnoses/radial_distribution.hpp>
+#include <boltzmann/diagnoses/shock.hpp>
+#include <boltzmann/diagnoses/structure_factor.hpp>
+#include <boltzmann/diagnoses/time_correlation.hpp>
+#include <boltzmann/diagnoses/wave_spectrum.hpp>
 #include <boltzmann/recording/planned_run.hpp>
-
-#include <boltzmann/diagnoses/measures.hpp>
-#include <boltzmann/schemes/mesh/mesh_scheme.hpp>
-#include <boltzmann/schemes/multipole/multipole_scheme.hpp>
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <optional>
 
 namespace boltzmann {
-
 namespace {
 
-/// Gas that its own gravity pulls together while steps stay as they are.
-std::vector<std::string> collapse_warnings(Simulation const& simulation) {
-  constexpr double held = 0.2;  // of |gravity|, the energies below which it falls together; 0.5 would hold it
-  constexpr double step_of_collapse =
-      0.05;  // of the Courant step of the start, for a collapse to a tenth of the radius
-  double longest = std::numeric_limits<double>::infinity();
-  bool far = false;
-  for (auto* scheme : simulation.schemes()) {
-    if (std::isfinite(scheme->sound_step())) longest = std::min(longest, scheme->longest_step());
-    far = far || dynamic_cast<MeshScheme const*>(scheme) || dynamic_cast<MultipoleScheme const*>(scheme);
+constexpr std::int64_t looks_of_a_spectrum = 4;
+
+struct Plan {
+  double time, step_size;
+  std::int64_t steps, rows_every;
+  UnitSystem const& units;
+
+  double end() const { return time + static_cast<double>(steps) * step_size; }
+  std::string told(double number) const { return units.text(number, dimensions::time, 3); }
+  /// How often something looks that looks every so many steps, from a time on.
+  std::int64_t looks(std::int64_t every, double since) const {
+    if (every < 1) return 0;
+    std::int64_t skipped = 0;
+    if (since > time && step_size > 0)
+      skipped = static_cast<std::int64_t>(
+          std::ceil(std::min((since - time) / step_size, 1e18) / static_cast<double>(every) - 1e-9));
+    return std::max<std::int64_t>(0, steps / every + 1 - skipped);
   }
-  if (!far || simulation.divides_steps() || !(std::abs(simulation.step_size()) > step_of_collapse * longest)) return {};
-  auto const measures = simulation.measure();
-  double const kinetic = kinetic_energy(simulation.ensembles());
-  if (!measures.unknown.empty() || measures.potential >= 0 || measures.external != 0) return {};
-  double const part = (kinetic + measures.internal) / -measures.potential;
-  if (part > held) return {};
-  return {
-      fmt::format("warning: kinetic and internal energy are {:.2g} of the energy of gravity: the gas will fall "
-                  "together, and sound in "
-                  "it needs shorter steps then; write substeps = {{ courant = 0.4 }} in [run] (divide_steps() in C++)",
-                  part)};
+};
+
+/// Something that compares looks up to `count` of them apart.
+struct Correlator {
+  std::string kind, result;
+  std::int64_t every;
+  double since;
+  std::size_t count;
+};
+std::optional<Correlator> correlator(Diagnosis const& diagnosis, Plan const& plan) {
+  if (auto const* one = dynamic_cast<TimeCorrelation const*>(&diagnosis))
+    return Correlator{
+        dynamic_cast<MeanSquareDisplacement const*>(one) ? "mean-square-displacement" : "velocity-autocorrelation",
+        "diffusion coefficient", static_cast<std::int64_t>(one->options().every), one->options().since,
+        one->options().count};
+  if (auto const* one = dynamic_cast<GreenKubo const*>(&diagnosis))
+    return Correlator{"green-kubo", one->columns().front().name, plan.rows_every, one->options().since,
+                      one->options().count};
+  return std::nullopt;
+}
+
+/// The time from which it measures, if it was given one.
+double since(Diagnosis const& diagnosis) {
+  if (auto const* one = dynamic_cast<Average const*>(&diagnosis)) return one->since();
+  if (auto const* one = dynamic_cast<Diffusion const*>(&diagnosis)) return one->since();
+  if (auto const* one = dynamic_cast<HeatFlux const*>(&diagnosis)) return one->since();
+  if (auto const* one = dynamic_cast<MeanProfile const*>(&diagnosis)) return one->since();
+  if (auto const* one = dynamic_cast<RadialDistribution const*>(&diagnosis)) return one->since();
+  if (auto const* one = dynamic_cast<StructureFactor const*>(&diagnosis)) return one->since();
+  if (auto const* one = dynamic_cast<Shock const*>(&diagnosis)) return one->options().since;
+  return 0;
+}
+
+std::string name_of(Diagnosis const& diagnosis) {
+  auto const columns = diagnosis.columns();
+  if (!columns.empty()) return columns.front().name;
+  auto const tables = diagnosis.tables();
+  return tables.empty() ? "a diagnosis" : tables.front().name;
+}
+
+std::string too_few_looks(Correlator const& one, Plan const& plan) {
+  std::int64_t const looks = plan.looks(one.every, one.since);
+  if (looks > static_cast<std::int64_t>(one.count)) return "";
+  double const interval = static_cast<double>(one.every) * std::abs(plan.step_size);
+  double const left = plan.end() - std::max(plan.time, one.since);
+  bool const late = one.since > plan.time;
+  return fmt::format("warning: {}: the longest lag is {}, the run has {}{}: no {}; {}", one.kind,
+                     plan.told(static_cast<double>(one.count) * interval), plan.told(std::max(0.0, left)),
+                     late ? " from 'since' on" : "", one.result,
+                     looks > 2 ? fmt::format("count = {}", looks / 2)
+                     : late    ? "run longer, or take an earlier 'since'"
+                               : "run longer, or look more often");
+}
+
+std::string warning_of(Diagnosis const& diagnosis, Plan const& plan) {
+  if (auto const one = correlator(diagnosis, plan)) return too_few_looks(*one, plan);
+  if (double const from = since(diagnosis); from > plan.end() && plan.step_size > 0)
+    return fmt::format(
+        "warning: '{}' is measured from the time {} on, and the run ends at {}: nothing is measured; run longer, or "
+        "take "
+        "an earlier 'since'",
+        name_of(diagnosis), plan.told(from), plan.told(plan.end()));
+  if (dynamic_cast<WaveSpectrum const*>(&diagnosis) && plan.looks(plan.rows_every, 0) < looks_of_a_spectrum)
+    return fmt::format("warning: wave-spectrum: it needs {} rows of diagnoses, the run has {}: no spectrum; {}",
+                       looks_of_a_spectrum, plan.looks(plan.rows_every, 0),
+                       plan.steps >= looks_of_a_spectrum
+                           ? fmt::format("write diagnoses = {} in [output]", plan.steps / looks_of_a_spectrum)
+                           : "run longer");
+  return "";
 }
 
 }  // namespace
 
 std::vector<std::string> planned_warnings(Recording const& recording, std::int64_t steps) {
   Simulation const& simulation = recording.simulation();
-  PlannedRun const run{simulation.time(), simulation.step_size(), steps, recording.diagnoses_every()};
+  Plan const plan{simulation.time(), simulation.step_size(), steps, recording.diagnoses_every(), recording.units()};
   std::vector<std::string> lines;
   if (steps <= 0) return lines;
-  lines = collapse_warnings(simulation);
-  auto const told = [&](double number) { return recording.units().text(number, dimensions::time, 3); };
-  for (auto const* diagnosis : recording.instruments()) {
-    if (diagnosis->since() > run.end() && run.step_size > 0) {
-      auto const columns = diagnosis->columns();
-      auto const tables = diagnosis->tables();
-      lines.push_back(fmt::format(
-          "warning: '{}' is measured from the time {} on, and the run ends at {}: nothing is measured; run longer, or "
-          "take an earlier 'since'",
-          !columns.empty()  ? columns.front().name
-          : !tables.empty() ? tables.front().name
-                            : "a diagnosis",
-          told(diagnosis->since()), told(run.end())));
-      continue;
-    }
-    for (auto const& line : diagnosis->warnings(run, recording.units())) lines.push_back(line);
-  }
+  for (auto const* diagnosis : recording.instruments())
+    if (auto line = warning_of(*diagnosis, plan); !line.empty()) lines.push_back(std::move(line));
   return lines;
 }
 

@@ -112,11 +112,11 @@ class Barostat {
   std::function<double(double)> pressure_of_time_, temperature_of_time_;
   std::uint32_t number_ = 0;
   std::size_t moves_ = 0, accepted_ = 0;
+  double piston_mass_ = 0, piston_rate_ = 0;  // MTK: W, once it is known, and u
+  ThermostatChain chain_{3};
   double pressures_ = 0;  // of the groups of axes in this move, less the target
   int dimension_ = 0;     // of the box, once it has moved
   Record record_;
-  double piston_mass_ = 0, piston_rate_ = 0;  // MTK: W, once it is known, and u
-  ThermostatChain chain_{3};
 };
 
 /// Stretches the boxes of all schemes about their middle by a factor along each axis, and the particles with them:

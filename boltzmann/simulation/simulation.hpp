@@ -149,7 +149,6 @@ class Simulation {
   void divide_steps(SubstepOptions const& options);
   /// How many substeps there were so far in divided steps, and how many that were too long and done again.
   SubstepCounts const& substeps() const { return substep_counts_; }
-  bool divides_steps() const { return substeps_.has_value(); }
   /// Of the random numbers of steps; loaders take theirs as an argument.
   std::uint64_t seed() const { return seed_; }
   void seed(std::uint64_t seed) { seed_ = seed; }
@@ -236,7 +235,6 @@ class Simulation {
   Part const& ready_part(AnyEnsemble& ensemble);
   void check_methods();
   void check_substeps() const;
-  std::string substeps_advice() const;
   void check_slow_schemes() const;
   void check_influences() const;
   void check_dissipations();

@@ -196,7 +196,8 @@ TEST(GroundedWalls, ALoneChargeInOneDimension) {
         MeshScheme mesh(between_plates<1>({2.0}), {30}, coulomb(0.4));
         mesh.boundary(0, ends.low, ends.high);
         mesh.assignment(order);
-        double const L = 2, x = cells * L / 30;
+        // The nearest node is where such a charge is.
+        double const L = 2, x = (order == 1 ? std::round(cells) : cells) * L / 30;
         charge[0].position = {ends.low == dirichlet ? x : L - x};
         charge[0].charge = -1.3;
         mesh.add(charge);

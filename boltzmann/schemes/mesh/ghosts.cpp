@@ -90,8 +90,12 @@ void Ghosts::row(double const* values, int c, std::size_t j, std::size_t k, doub
       for (std::size_t i = 0; i < mx; ++i) line[i] += high * at_high[i];
     from = line;
   }
+  std::size_t const first = place(0, 0);
+  std::copy_n(from, mx, to + first);
   auto const& terms = c == 0 ? normal_terms_[0] : terms_[0];
   for (std::size_t i = 0; i < terms.size(); ++i) {
+    if (i == first) i += mx;
+    if (i >= terms.size()) break;
     Term const& x = terms[i];
     to[i] = x.factor * from[x.node];
     if (c == 0 && (x.low != 0 || x.high != 0)) to[i] += x.low * from[0] + x.high * from[mx - 1];
