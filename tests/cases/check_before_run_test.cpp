@@ -64,7 +64,7 @@ depth = "0.0104 eV"
 r0 = "0.3822 nm"
 {}
 )",
-                     lattice, spacing, law, law == "morse" ? "a = \"15 1/nm\"" : "");
+                     lattice, spacing, law, law == "morse" ? "a = \"30 1/nm\"" : "");
 }
 
 std::string gas(std::string const& diagnosis, int steps, int rows) {
@@ -117,14 +117,14 @@ TEST(CheckBeforeRun, AnOpenBoxWithAMesh) {
 TEST(CheckBeforeRun, AtomsOfALatticeThatOverlap) {
   for (std::string const lattice : {"square", "fcc", "bcc"})
     for (std::string const law : {"lennard-jones", "morse"}) {
-      Case const near("near", argon(lattice, law, lattice == "square" ? "0.2 nm" : "0.28 nm"));
+      Case const near("near", argon(lattice, law, "0.2 nm"));
       auto const outcome = near.check();
       EXPECT_EQ(outcome.status, 2) << lattice << law << outcome.err;
       EXPECT_TRUE(has(outcome.err, "overlap")) << lattice << law << outcome.err;
       if (lattice == "square") {
         EXPECT_TRUE(has(outcome.err, "only 0.2 nm apart")) << outcome.err;
       }
-      Case const far("far", argon(lattice, law, lattice == "square" ? "0.38 nm" : "0.53 nm"));
+      Case const far("far", argon(lattice, law, "0.38 nm"));
       EXPECT_EQ(far.check().status, 0) << lattice << law << far.check().err;
     }
 }
