@@ -27,7 +27,7 @@ Mean mean_of(std::span<double const> parts) {
   return mean;
 }
 
-double with_two_digits_below(double x) {
+double two_digits_below(double x) {
   double const unit = std::pow(10.0, std::floor(std::log10(x)) - 1);
   return unit * std::floor(x / unit);
 }
@@ -62,7 +62,7 @@ std::vector<std::string> Barostat::warnings(UnitSystem const& units) const {
   auto const rate = [&](double number) { return units.text(number, dimensions::frequency, 2); };
   if (options_.method == BarostatMethod::cell_rescaling && moves_ >= moves_to_judge &&
       static_cast<double>(accepted_) < least_accepted * static_cast<double>(moves_)) {
-    double const slower = with_two_digits_below(std::min(0.1 * options_.rate, 0.1 / record_.duration));
+    double const slower = two_digits_below(std::min(0.1 * options_.rate, 0.1 / record_.duration));
     return {
         fmt::format("warning: the barostat accepted {} of {} moves of the box, so it does not hold the pressure: its "
                     "moves are too large; take a smaller rate, such as {}",

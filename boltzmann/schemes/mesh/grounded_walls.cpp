@@ -14,8 +14,6 @@
 namespace boltzmann {
 namespace {
 
-using poisson::Axis;
-
 /// How a density that is 1 at a low Dirichlet end, and falls to 0 at the other one (or stays 1 up to a Neumann end),
 /// differs from what its values on the inner nodes make of it in the spectral form: `lift` is added to the density on
 /// the nodes, so that all modes of the mesh have their exact amplitudes; `rest` is the field of all shorter waves.
@@ -24,7 +22,7 @@ struct Lift {
 };
 Lift make_lift(MeshGrid const& grid, FieldEnds const& ends, int a) {
   bool const both = ends.high == FieldBoundary::dirichlet;
-  Axis axis = poisson::make_axis(grid, ends, a);
+  poisson::Axis axis = poisson::make_axis(grid, ends, a);
   poisson::fill_tables(axis, PoissonForm::spectral);
   poisson::Lines const lines(axis, poisson::Layout::row, true);
   std::size_t const size = poisson::Lines::buffer_size(axis, poisson::Layout::row);
