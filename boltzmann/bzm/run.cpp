@@ -1,11 +1,13 @@
 // bzm run, bzm resume, bzm check: a scenario becomes a folder of results.
 #include <boltzmann/bzm/commands.hpp>
 #include <boltzmann/bzm/run_recording.hpp>
+#include <boltzmann/bzm/waiting_line.hpp>
 #include <boltzmann/core/team.hpp>
 #include <boltzmann/files/checkpoint.hpp>
 #include <boltzmann/files/csv.hpp>
 #include <boltzmann/files/folder_lock.hpp>
 #include <boltzmann/files/trajectory.hpp>
+#include <boltzmann/recording/planned_run.hpp>
 #include <boltzmann/simulation/conserved.hpp>
 #include <boltzmann/sweep/run_sweep.hpp>
 
@@ -15,6 +17,8 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <optional>
+#include <string>
 
 namespace boltzmann::bzm {
 namespace {
@@ -57,6 +61,12 @@ ScenarioText read_on_all(std::string const& name) {
   return text;
 }
 
+std::string calculating(ScenarioSimulation const& scenario) {
+  std::size_t particles = 0;
+  for (auto const& ensemble : scenario.ensembles) particles += ensemble->size();
+  return fmt::format("calculating the influences on {} particles at the start", particles);
+}
+
 int status_of(SweepReport const& report, std::string const& folder) {
   if (report.interrupted || report.out_of_time) {
     fmt::print(stderr, "bzm resume {} goes on with the sweep\n", folder);
@@ -82,6 +92,8 @@ int run(RunOptions const& options) {
   refuse_in_window(options.hours, options.window);
   ScenarioText const text = read_on_all(options.scenario);
   Overrides const& overrides = options.overrides;
+  std::optional<WaitingLine> waiting(!options.quiet);
+  waiting->doing("placing particles");
   auto scenario = load_scenario(text, overrides);
   std::string const folder = options.out.empty() ? "results/" + scenario->name : options.out;
   FolderLock const lock = lock_folder(folder);
@@ -89,6 +101,7 @@ int run(RunOptions const& options) {
     throw Error("'" + folder +
                 "' already holds a sweep; go on with it by bzm resume, choose another folder, or replace "
                 "it with --force");
+  if (scenario->sweep) waiting.reset();
   print_notes(*scenario, options.quiet);
   if (scenario->sweep && options.window.open) {
     if (!options.quiet) fmt::print("this scenario is a sweep; the window shows the first of its runs\n");
@@ -100,8 +113,10 @@ int run(RunOptions const& options) {
     return status_of(run_sweep({text, overrides, folder, options.quiet, options.force}, wall, std::move(scenario)),
                      folder);
   auto const recording = make_recording(*scenario, folder, {.overwrite = options.force});
+  if (waiting) waiting->doing(calculating(*scenario));
   scenario->simulation->check();
   recording->check();
+  waiting.reset();
   if (holds_sweep(folder)) remove_sweep(folder);
   if (!options.quiet) print_heading(*scenario, folder);
   return run_recording(*scenario, *recording, scenario->steps, scenario->steps, options.quiet, wall, options.window);
@@ -196,15 +211,20 @@ int resume(ResumeOptions const& options) {
 
 int check(std::string const& name, Overrides const& overrides) {
   ScenarioText const text = read_scenario(find_scenario(name));
+  std::optional<WaitingLine> waiting(true);
+  waiting->doing("placing particles");
   auto const scenario = load_scenario(text, overrides);
+  waiting->doing(calculating(*scenario));
   auto const recording =
       make_recording(*scenario, std::filesystem::temp_directory_path().string(), {.overwrite = true});
   scenario->simulation->check();
   recording->check();
+  waiting.reset();
   if (energies_can_be_checked(*scenario->simulation))
     need_finite(*scenario->simulation, conserved(*scenario->simulation));
   print_notes(*scenario, false);
   print_warnings(*scenario->simulation, {.quiet = true});
+  for (auto const& line : planned_warnings(*recording, scenario->steps)) fmt::print(stderr, "{}\n", line);
   std::size_t particles = 0, bytes = 0;
   for (auto const& scheme : scenario->schemes) bytes += scheme->bytes();  // now that lists and meshes are there
   for (auto const& ensemble : scenario->ensembles) {

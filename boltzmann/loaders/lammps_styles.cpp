@@ -47,8 +47,7 @@ std::vector<std::string> atom_styles_of(std::size_t words) {
 
 std::string unknown_style(std::string_view name) {
   auto const names = atom_style_names();
-  return fmt::format("'{}' can't be read; those that can are {}{}", quoted(name), join(names),
-                     did_you_mean(std::string(name), names));
+  return fmt::format("'{}' can't be read{}", quoted(name), choices(name, names, "those that can are"));
 }
 
 void sort_by_identifier(ParticleFrame& frame, std::vector<std::pair<std::int64_t, std::size_t>> order) {
