@@ -97,7 +97,8 @@ Rows rows_of(bool hexagonal, int columns, int rows) {
 }
 
 /// The frequency over sqrt(G / rho) k of a shear wave along y with so many rows to half a wavelength.
-double shear_wave(bool hexagonal, int half, double range, WeightShape weight, DensityFrom from = DensityFrom::summation) {
+double shear_wave(bool hexagonal, int half, double range, WeightShape weight,
+                  DensityFrom from = DensityFrom::summation) {
   int const rows = 2 * half * (half < 4 ? 6 / half : 1);
   Rows const all = rows_of(hexagonal, 8, rows);
   double const k = pi / (half * all.row), omega = std::sqrt(shear_modulus / density) * k;
@@ -122,7 +123,8 @@ double shear_wave_3d(bool face_centred, int half, double range, WeightShape weig
   Body<3> body(places, face_centred ? 0.25 : 1, range,
                Box(Vector{0.0, 0.0, 0.0}, Vector{1.0 * across, 1.0 * cells, 1.0 * across}, Boundary::periodic), weight,
                DensityFrom::summation, [&](auto const& r) {
-                 return Vector{1e-4 * omega / k * std::cos(k * (r[1] - 0.25 - (face_centred ? 0 : 0.25 * (half - 1)))), 0.0, 0.0};
+                 return Vector{1e-4 * omega / k * std::cos(k * (r[1] - 0.25 - (face_centred ? 0 : 0.25 * (half - 1)))),
+                               0.0, 0.0};
                });
   return body.frequency(omega) / omega;
 }
@@ -176,12 +178,12 @@ Bent bending_wave(bool hexagonal, int rows, int columns, double range, WeightSha
   Rows all = rows_of(hexagonal, columns, rows);
   for (auto& r : all.places) r[1] -= 0.5 * all.height;
   double const k = 2 * pi / all.length, omega = lamb_frequency(k, all.height), amplitude = 1e-3 * omega;
-  Body<2> body(all.places, all.volume, range,
-               Box(Vector{0.0, -2 * all.height}, Vector{all.length, 2 * all.height},
-                   {Boundary::periodic, Boundary::open}),
-               weight, DensityFrom::continuity, [&](auto const& r) {
-                 return Vector{amplitude * k * r[1] * std::sin(k * r[0]), amplitude * std::cos(k * r[0])};
-               });
+  Body<2> body(
+      all.places, all.volume, range,
+      Box(Vector{0.0, -2 * all.height}, Vector{all.length, 2 * all.height}, {Boundary::periodic, Boundary::open}),
+      weight, DensityFrom::continuity, [&](auto const& r) {
+        return Vector{amplitude * k * r[1] * std::sin(k * r[0]), amplitude * std::cos(k * r[0])};
+      });
   double const energy = body.energy();
   double const found = body.frequency(omega) / omega;
   return {found, (body.energy() - energy) / energy};
@@ -261,10 +263,9 @@ TEST(Solids, AFreeBeamVibratesAsTimoshenkoSays) {
   EXPECT_NEAR(body.frequency(omega) / omega, 1, 0.05);
 }
 
-// A disc that turns slowly bears no more stress than the centrifugal force makes, (3 - 2 nu) / (8 (1 - nu)) rho (w R)^2
-// in the middle, and turns on.
+// Rotation alone strains nothing. The centrifugal force makes a stress of rho (w R)^2 / 2 at most, 0.001 G here.
 TEST(Solids, ADiscTurnsRigidly) {
-  constexpr double radius = 8, omega = 0.02;
+  constexpr double radius = 8, omega = 0.04;
   std::vector<Vector<2>> places;
   for (int i = -9; i < 9; ++i)
     for (int j = -9; j < 9; ++j) {
@@ -272,8 +273,10 @@ TEST(Solids, ADiscTurnsRigidly) {
       if (norm2(r) < square(radius)) places.push_back(r);
     }
   Body<2> disc(places, 1, 3, Box(Vector{-20.0, -20.0}, Vector{20.0, 20.0}), WeightShape::wendland,
-               DensityFrom::continuity, [&](auto const& r) { return Vector{-omega * r[1], omega * r[0]}; });
-  auto const spin = [&] { return angular_momentum(std::vector<AnyEnsemble const*>{&disc.body}, {})[2]; };
+               DensityFrom::continuity, [&](auto const& r) {
+                 return Vector{-omega * r[1], omega * r[0]};
+               });
+  auto const spin = [&] { return angular_momentum(std::vector<AnyEnsemble const*>{&disc.body}, {})[0]; };
   double const start = spin(), energy = disc.energy();
   disc.simulation->run(static_cast<std::uint64_t>(2 * pi / omega / disc.simulation->step_size()));
   EXPECT_NEAR(spin() / start, 1, 1e-4);
@@ -283,8 +286,8 @@ TEST(Solids, ADiscTurnsRigidly) {
     stress = std::max(stress, equivalent_stress(p.stress));
     hourglass = std::max(hourglass, shear_modulus * std::sqrt(norm2(p.hourglass_strain)));
   }
-  EXPECT_LT(stress, 2 * square(omega * radius));
-  EXPECT_LT(hourglass, square(omega * radius));
+  EXPECT_LT(stress, 0.01 * shear_modulus);
+  EXPECT_LT(hourglass, 0.01 * shear_modulus);
 }
 
 }  // namespace

@@ -160,11 +160,12 @@ void find_cohesion(void const* the_material, MaterialTask const& task, std::size
   });
 }
 
-/// L of the correction, 1 / B up to a limit: (1 + e^2) B / (B^2 + e^2) is 1 for B = 1, and never more than 2.6.
+/// L of the correction: 1 / B, but bounded; B^3 / (B^4 + e^4), normalised to 1 for B = 1, is never more than 5.7.
 template <int D>
 Tensor<D> correction_of(Tensor<D> const& spread) {
-  constexpr double e2 = 0.04;
-  return dot(spread, inverse(dot(spread, spread) + Tensor<D>::identity() * e2)) * (1 + e2);
+  constexpr double e4 = 1e-4;
+  auto const square = dot(spread, spread);
+  return dot(dot(square, spread), inverse(dot(square, square) + Tensor<D>::identity() * e4)) * (1 + e4);
 }
 
 /// The vector b for which Sum phi r (1 - b.r) = 0. Where all neighbours lie on a line or in a plane, b is along it.

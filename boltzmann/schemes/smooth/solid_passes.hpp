@@ -64,15 +64,14 @@ SolidSum(Tensor<D, Real>, Tensor<D, Real>, Real, Vector<D, Real>, Vector<D, Real
 /// move against each other have the frequency sqrt(G / rho) k, for the square, hexagonal, simple cubic and face-centred
 /// cubic lattice at once. The guide has the deviations.
 struct HourglassStencil {
-  static constexpr double reach = 2.35;  ///< in spacings
   template <int D>
-  static constexpr double scale = D == 1   ? 0
-                                  : D == 2 ? 4.846
-                                           : 3.339;
+  static constexpr double reach = D == 2 ? 2.35 : 2.45;  ///< in spacings
+  template <int D>
+  static constexpr double scale = D == 2 ? 4.846 : 2.778;
   /// Above the largest sum of phi over the neighbours in a lattice. More of it is scaled down to it, so that the control
   /// is not stiffer where particles are crowded.
   template <int D>
-  static constexpr double crowd = D == 2 ? 0.6 : 1.1;
+  static constexpr double crowd = D == 2 ? 0.6 : 1.3;
 };
 
 namespace detail {
@@ -80,7 +79,8 @@ namespace detail {
 /// phi of q as p weighs it, divided by p's spacing; zero for fluids and what is broken.
 template <class P, class Real>
 [[gnu::always_inline]] inline Real hourglass_weight(P const& p, P const& q, Real const& distance) {
-  Real const u = max(Real(1.0 - distance * p.inverse_spacing * (1 / HourglassStencil::reach)), Real(0.0)), u2 = u * u;
+  Real const u = max(Real(1.0 - distance * p.inverse_spacing * (1 / HourglassStencil::reach<P::dimension>)), Real(0.0)),
+             u2 = u * u;
   return q.intact * p.inverse_spacing * u2 * u2;
 }
 
