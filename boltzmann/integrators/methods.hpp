@@ -64,7 +64,7 @@ template <class F, int D>
 template <class P>
 inline constexpr bool may_lag = requires(P& p) {
   p.lag;
-  p.is_completed;
+  p.kick;
 };
 template <class P, class Member>
 inline constexpr bool is_position = std::is_same_v<Member, decltype(&P::position)>;
@@ -250,7 +250,7 @@ class Alternating : public MethodOf<P> {
   template <class Increment>
   void kick_but_lagging(std::size_t i, double dt, Increment const& increment) {
     P& p = this->ensemble_[i];
-    bool const completed = p.is_completed != 0;
+    bool const completed = this->ensemble_.influence_on(i).is_completed != 0;
     this->equations(i, [&](auto member, auto const& derivative) {
       if constexpr (!is_position<P, decltype(member)>) {
         double const time = completed && P::lags(member) ? 0 : dt;
@@ -262,6 +262,7 @@ class Alternating : public MethodOf<P> {
   /// `predicted` takes.
   void kick_before_scheme(std::size_t i, double dt, LargestMove& move, double* predicted) {
     P& p = this->ensemble_[i];
+    bool const completed = this->ensemble_.influence_on(i).is_completed != 0;
     kick_but_lagging(i, 0.5 * dt, [](double& x, double dx) { x += dx; });
     drift(i, dt, move, [](double& x, double dx) { x += dx; });
     auto const middle = p.velocity;
@@ -269,8 +270,8 @@ class Alternating : public MethodOf<P> {
       *predicted++ = dx;
       x += dx;
     });
-    p.kick = p.is_completed != 0 ? p.velocity - middle : decltype(middle){};
-    p.lag = p.is_completed != 0 ? dt : 0;
+    p.kick = completed ? p.velocity - middle : decltype(middle){};
+    p.lag = completed ? dt : 0;
   }
   /// The second kick; the fields that lag take the whole step.
   void kick_after_scheme(std::size_t i, double dt, double const* predicted) {

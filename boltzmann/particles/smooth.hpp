@@ -60,6 +60,7 @@ struct SolidInfluence : SmoothInfluence<D, Real> {
   Real plastic_rate;
   Real damage_rate;
   Vector<D, Real> hourglass_rate;
+  Real is_completed;  ///< not 0: the scheme brings fields that lag up to date, see Solid
 };
 
 /// A piece of a solid: it remembers how it has been sheared.
@@ -74,13 +75,13 @@ struct Solid : Smooth<D, Real> {
   Real damage;             ///< 0 whole, 1 broken: no tension, no shear
   Vector<D, Real> hourglass_strain;  ///< how far it has left the linear motion of its neighbours, in spacings; in 1D 0
 
-  // Inside a step of leap-frog only, else 0. Strain follows from velocities as positions do, so leap-frog is stable if it
-  // advances what depends on it like positions: by the velocities in the middle of the step, before the forces at its
-  // end. The scheme does that for particles that it marks: it finds rates from velocity - kick, and forces from fields
-  // that it has advanced by lag times these rates.
+  // Inside a step of leap-frog only, else 0. Strain follows from velocities as positions do. Leap-frog is stable if it
+  // advances stress like positions: by the velocities in the middle of the step, before the forces at its end. The scheme
+  // finds rates from velocity - kick, and forces from fields that it has advanced by lag times these rates. Leap-frog
+  // leaves that to it where the influence says so (is_completed).
   Vector<D, Real> kick;  ///< what the velocity is ahead of the middle of the step
   Real lag;              ///< the time by which fields that lag() are behind the others
-  Real is_completed;     ///< not 0: marked
+  /// True for the fields that follow from strain.
   template <class Member>
   static constexpr bool lags(Member member) {
     if constexpr (std::is_same_v<Member, decltype(&Solid::density)>)

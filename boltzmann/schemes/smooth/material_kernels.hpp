@@ -216,8 +216,8 @@ Fluxes<P::dimension> find_strength(M const& material, MaterialTask const& task, 
     if (p.lag != 0) material.rates(static_cast<P const&>(p), gradients, first);
     material.rates(static_cast<P const&>(p.lag != 0 ? advanced(p, first, p.lag / 2) : p), gradients, rates);
   }
+  rates.is_completed = 1;
   add(influence, rates);
-  p.is_completed = 1;
 
   P const now = advanced(p, rates, p.lag);
   Fluxes<D> fluxes{};
