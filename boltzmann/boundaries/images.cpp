@@ -21,6 +21,8 @@ std::optional<double> odd_about(Box const& box, ImageComponent of, int axis, Box
     case ImageRule::velocity:
       if (!along_normal && wall.slips) return {};
       return box.wall_velocity(axis, end, of.axis);
+    case ImageRule::displacement:
+      return sign_changes(along_normal || !wall.slips);
     case ImageRule::temperature:
       if (std::isnan(wall.temperature)) return {};
       return wall.temperature;

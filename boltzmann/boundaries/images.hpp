@@ -27,6 +27,7 @@ enum class ImageRule : unsigned char {
   same,           ///< as it is: mass, density, the temperature's history, ...
   position,       ///< reflected about the wall
   velocity,       ///< as the wall says (Wall::slips, Wall::velocity)
+  displacement,   ///< that of a particle which the wall reflects so: as `velocity` at a wall at rest
   temperature,    ///< as the wall says (Wall::temperature)
   normal_vector,  ///< a reflected vector: its component along the wall's normal changes sign (grad of what is `same`)
   heat_flux,  ///< of such a temperature: at an insulated wall as normal_vector; at a wall of given temperature, about

@@ -60,6 +60,12 @@ template <class F, int D>
 }
 
 /// True for the position among the fields that the equations of motion name.
+/// True if a scheme may complete some fields of P inside a step (see Solid).
+template <class P>
+inline constexpr bool may_lag = requires(P& p) {
+  p.lag;
+  p.kick;
+};
 template <class P, class Member>
 inline constexpr bool is_position = std::is_same_v<Member, decltype(&P::position)>;
 
@@ -288,6 +294,46 @@ class Alternating : public MethodOf<P> {
     });
     move.take(norm2(p.position - start), i);
   }
+  /// A kick without the fields that the scheme completes (see Solid); increment(x, dx).
+  template <class Increment>
+  void kick_but_lagging(std::size_t i, double dt, Increment const& increment) {
+    P& p = this->ensemble_[i];
+    bool const completed = this->ensemble_.influence_on(i).is_completed != 0;
+    this->equations(i, [&](auto member, auto const& derivative) {
+      if constexpr (!is_position<P, decltype(member)>) {
+        double const time = completed && P::lags(member) ? 0 : dt;
+        each_component([&](double& x, double rate) { increment(x, time * rate); }, p.*member, derivative);
+      }
+    });
+  }
+  /// Both halves of the first kick of leap-frog and the drift between them; the second half is a prediction, which
+  /// `predicted` takes.
+  void kick_before_scheme(std::size_t i, double dt, LargestMove& move, double* predicted) {
+    P& p = this->ensemble_[i];
+    bool const completed = this->ensemble_.influence_on(i).is_completed != 0;
+    kick_but_lagging(i, 0.5 * dt, [](double& x, double dx) { x += dx; });
+    drift(i, dt, move, [](double& x, double dx) { x += dx; });
+    auto const middle = p.velocity;
+    kick_but_lagging(i, 0.5 * dt, [&](double& x, double dx) {
+      *predicted++ = dx;
+      x += dx;
+    });
+    p.kick = completed ? p.velocity - middle : decltype(middle){};
+    p.lag = completed ? dt : 0;
+  }
+  /// The second kick; the fields that lag take the whole step.
+  void kick_after_scheme(std::size_t i, double dt, double const* predicted) {
+    P& p = this->ensemble_[i];
+    bool const completed = p.lag != 0;
+    this->equations(i, [&](auto member, auto const& derivative) {
+      if constexpr (!is_position<P, decltype(member)>) {
+        double const time = completed && P::lags(member) ? dt : 0.5 * dt;
+        each_component([&](double& x, double rate) { x += time * rate - *predicted++; }, p.*member, derivative);
+      }
+    });
+    p.kick = {};
+    p.lag = 0;
+  }
   /// Runs the second kick, which must not forget how far the drift went.
   template <class Function>
   void each_again(Function const& function) {
@@ -433,6 +479,7 @@ class LeapFrog final : public Alternating<P> {
       for (auto const& rotation : rotations_) turn(rotation, 0.5 * dt);
       if constexpr (predicts) kicks_.resize(kicked * this->ensemble_.size());
       this->each([this, dt, plain, kicked](std::size_t i, LargestMove& move) {
+        if constexpr (predicts && may_lag<P>) return this->kick_before_scheme(i, dt, move, kicks_.data() + kicked * i);
         this->kick(i, 0.5 * dt, plain);
         this->drift(i, dt, move, plain);
         if constexpr (predicts) {
@@ -450,7 +497,10 @@ class LeapFrog final : public Alternating<P> {
     this->each_again([this, dt, plain, kicked](std::size_t i, LargestMove& move) {
       if constexpr (predicts) {
         double const* predicted = kicks_.data() + kicked * i;
-        this->kick(i, 0.5 * dt, [&](double& x, double dx) { x += dx - *predicted++; });
+        if constexpr (may_lag<P>)
+          this->kick_after_scheme(i, dt, predicted);
+        else
+          this->kick(i, 0.5 * dt, [&](double& x, double dx) { x += dx - *predicted++; });
       } else {
         this->kick(i, 0.5 * dt, plain);
       }

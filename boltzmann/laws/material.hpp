@@ -36,6 +36,7 @@ struct Fluxes {
 //   Fluxes<D> fluxes(p, gradients)       viscosity, conduction, strength
 //   double diffusivity(p)                of momentum or heat, the larger, in length^2 / time: limits the step; with fluxes
 //   void rates(p, gradients, influence)  rates of further fields of p's class (the stress of a solid)
+//   double shear_stiffness(p)            shear modulus that is left, for the hourglass control of solids
 //   double energy(density)               barotropic: the specific energy is this function of the density, and does not
 //                                        evolve
 //   double pressure_by_density2()        P / rho^2 where it is the same for all particles always (P = rho^2 / 2): forces

@@ -59,6 +59,8 @@ struct SolidInfluence : SmoothInfluence<D, Real> {
   Tensor<D, Real> stress_rate;
   Real plastic_rate;
   Real damage_rate;
+  Vector<D, Real> hourglass_rate;
+  Real is_completed;  ///< not 0: the scheme brings fields that lag up to date, see Solid
 };
 
 /// A piece of a solid: it remembers how it has been sheared.
@@ -71,19 +73,39 @@ struct Solid : Smooth<D, Real> {
                            ///< (plane, uniaxial strain): its trace over three axes is zero.
   Real plastic_strain;     ///< equivalent, accumulated
   Real damage;             ///< 0 whole, 1 broken: no tension, no shear
+  Vector<D, Real> hourglass_strain;  ///< how far it has left the linear motion of its neighbours, in spacings; in 1D 0
+
+  // Inside a step of leap-frog only, else 0. Strain follows from velocities as positions do. Leap-frog is stable if it
+  // advances stress like positions: by the velocities in the middle of the step, before the forces at its end. The scheme
+  // finds rates from velocity - kick, and forces from fields that it has advanced by lag times these rates. Leap-frog
+  // leaves that to it where the influence says so (is_completed).
+  Vector<D, Real> kick;  ///< what the velocity is ahead of the middle of the step
+  Real lag;              ///< the time by which fields that lag() are behind the others
+  /// True for the fields that follow from strain.
+  template <class Member>
+  static constexpr bool lags(Member member) {
+    if constexpr (std::is_same_v<Member, decltype(&Solid::density)>)
+      return member == static_cast<Member>(&Solid::density);
+    else
+      return std::is_same_v<Member, decltype(&Solid::stress)> || std::is_same_v<Member, decltype(&Solid::damage)> ||
+             std::is_same_v<Member, decltype(&Solid::hourglass_strain)>;
+  }
 
   static void equations(auto const& p, auto const& influence, auto const& rate) {
     Smooth<D, Real>::equations(p, influence, rate);
     rate(&Solid::stress, influence.stress_rate);
     rate(&Solid::plastic_strain, influence.plastic_rate);
     rate(&Solid::damage, influence.damage_rate);
+    rate(&Solid::hourglass_strain, influence.hourglass_rate);
   }
 
   static FieldTable fields() {
     return Smooth<D, Real>::fields()
         .add(&Solid::stress, "stress", dimensions::energy / pow(dimensions::length, D), "deviatoric stress")
         .add(&Solid::plastic_strain, "plastic_strain", dimensions::none, "equivalent plastic strain")
-        .add(&Solid::damage, "damage", dimensions::none, "0 whole, 1 broken");
+        .add(&Solid::damage, "damage", dimensions::none, "0 whole, 1 broken")
+        .add(&Solid::hourglass_strain, "hourglass_strain", dimensions::none,
+             "strain between neighbouring particles that smooth gradients do not see");
   }
 };
 

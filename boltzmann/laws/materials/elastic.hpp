@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numbers>
 
 namespace boltzmann {
 
@@ -44,6 +45,9 @@ double largest_principal(Tensor<D> const& deviatoric) {
 /// time that sound needs through the range. While the largest principal tension of the undamaged material is above
 /// tensile_strength, damage d grows at 0.4 c / range (1 - d): cracks run at 0.4 of the sound speed. Tension and
 /// strength are multiplied by 1 - d; a broken solid only resists compression.
+///
+/// The hourglass strain h (schemes/smooth/solid_passes.hpp) turns with the body, dh/dt = W.h, and relaxes as the stress
+/// does: with plastic flow, and where its equivalent stress sqrt(3) G |h| is above yield_stress.
 ///
 /// All of it stands in rates, which are added to the influence; nothing changes a particle. Elastic energy and the heat
 /// of plastic flow come into the specific energy by the work of the stress (Eq 3), so that energy evolves also over a
@@ -98,6 +102,12 @@ struct Elastic {
     return 0;
   }
 
+  /// Against hourglass strain: G times 1 - d, and never more strength than yield_stress.
+  template <class P>
+  double shear_stiffness(P const& p) const {
+    return shear_modulus * whole(p) * within_yield(hourglass_stress(p));
+  }
+
   template <class P>
   void rates(P const& p, Gradients<P::dimension> const& gradients, typename P::Influence& influence) const {
     constexpr int D = P::dimension;
@@ -109,14 +119,18 @@ struct Elastic {
     auto stress_rate = shearing * (2 * shear_modulus) + dot(spin, s) - dot(s, spin);
 
     double const equivalent = equivalent_stress(s), crossing = state(p).sound_speed / p.range;
+    double relaxation = crossing * (1 - within_yield(hourglass_stress(p)));  // of h
     if (equivalent >= yield_stress) {
       // Plastic flow is along s; dq/dt of it is -3G plastic_rate. On the axes without components nothing is strained.
       double const outward = max(contraction(s, strain_rate), 0) / equivalent;
       double const plastic_rate = outward + (equivalent - yield_stress) * crossing / (3 * shear_modulus);
-      stress_rate -= s * (3 * shear_modulus * plastic_rate / equivalent);
+      double const of_stress = 3 * shear_modulus * plastic_rate / equivalent;
+      stress_rate -= s * of_stress;
+      relaxation += of_stress;
       influence.plastic_rate += plastic_rate;
     }
     influence.stress_rate += stress_rate;
+    influence.hourglass_rate += dot(spin, p.hourglass_strain) - p.hourglass_strain * relaxation;
     if (tensile_strength < unlimited) {
       double const tension = within_yield(equivalent) * largest_principal(s) - material.state(p).pressure;
       if (tension > tensile_strength) influence.damage_rate += 0.4 * crossing * whole(p);
@@ -132,6 +146,10 @@ struct Elastic {
   template <class P>
   static double whole(P const& p) {
     return std::clamp(1 - p.damage, 0.0, 1.0);
+  }
+  template <class P>
+  double hourglass_stress(P const& p) const {
+    return std::numbers::sqrt3 * shear_modulus * std::sqrt(norm2(p.hourglass_strain));
   }
   double within_yield(double equivalent) const { return equivalent > yield_stress ? yield_stress / equivalent : 1; }
 };

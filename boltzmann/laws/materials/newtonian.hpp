@@ -73,6 +73,11 @@ struct Newtonian {
              typename P::Influence& influence) const requires has_rates<EquationOfState, P> {
     material.rates(p, gradients, influence);
   }
+  template <class P>
+  double shear_stiffness(P const& p) const requires requires(EquationOfState const& m) {
+    m.shear_stiffness(p);
+  }
+  { return material.shear_stiffness(p); }
   double energy(double density) const requires is_barotropic<EquationOfState> { return material.energy(density); }
   double specific_heat() const requires requires(EquationOfState const& m) { m.specific_heat(); }
   { return material.specific_heat(); }

@@ -3,10 +3,13 @@
 
 #include <boltzmann/laws/material.hpp>
 #include <boltzmann/particles/rows.hpp>
-#include <boltzmann/schemes/smooth/passes.hpp>
+#include <boltzmann/schemes/smooth/solid_passes.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 
 namespace boltzmann {
 
@@ -26,10 +29,12 @@ struct MaterialTask {
   std::uint32_t const* members = nullptr;  ///< the sorted rows of this ensemble; null: all
   double* fluid = nullptr;                 ///< SmoothFluid's block of sorted rows
   double* matter = nullptr;                ///< SmoothMatter's first block; null: no pass reads it
+  double* solid = nullptr;                 ///< SmoothSolid's first block; null: no hourglass control
   std::size_t block_stride = 0;            ///< from one of its blocks to the next
   double const* density = nullptr;         ///< sums of the density pass; null: the density is the particle's own
   double const* gradients = nullptr;       ///< sums of the gradient pass
   double const* rates = nullptr;           ///< sums of the rate pass
+  double const* solid_sums = nullptr;      ///< of the passes of solids
   double* factor = nullptr;                ///< grad-h factor of each sorted row; null: all have one range
   bool adaptive = false;                   ///< ranges follow densities; else factors are 1
   double self = 0;                         ///< w(0) range^D
@@ -49,7 +54,10 @@ struct MaterialKernels {
   MaterialKernel state = nullptr;   ///< density and state, into the particles and SmoothFluid's block
   MaterialKernel fluxes = nullptr;  ///< into SmoothMatter's blocks, and rates of further fields into the influence
   MaterialKernel rates = nullptr;   ///< adds to the influence
-  double (*diffusivity)(void const* material, double const* particle) = nullptr;  ///< null: none
+  double (*diffusivity)(void const* material, double const* particle) = nullptr;      ///< null: none
+  double (*shear_stiffness)(void const* material, double const* particle) = nullptr;  ///< null: none
+  MaterialKernel cohesion = nullptr;     ///< into SmoothSolid's first block
+  MaterialKernel solid_force = nullptr;  ///< adds the forces of the passes of solids to the influence
   bool needs_gradients = false, barotropic = false, constant_push = false;
   double push = 0;  ///< where it is constant
 };
@@ -124,6 +132,127 @@ double shear_switch(Tensor<D> const& gradient, double sound_speed, double range)
   return div + rest > 0 ? div / (div + rest) : 1;
 }
 
+/// Whether the material and the class have what the passes of solids need. Nothing shears in 1D.
+template <class M, class P>
+inline constexpr bool is_solid = P::dimension > 1 &&
+                                 requires(M const& material, P const& p, typename P::Influence& influence) {
+  material.shear_stiffness(p);
+  p.damage;
+  p.hourglass_strain;
+  influence.hourglass_rate;
+};
+
+template <class P, class M>
+void find_cohesion(void const* the_material, MaterialTask const& task, std::size_t begin, std::size_t end) {
+  [[maybe_unused]] M const& material = *static_cast<M const*>(the_material);
+  each_member<P>(task, begin, end, [&](std::size_t k, std::size_t, P& p) {
+    double* const block = task.solid + row_block * k;
+    double const per_volume = p.density / p.mass;
+    block[0] = P::dimension == 2 ? std::sqrt(per_volume) : std::cbrt(per_volume);
+    block[1] = 0;
+    if constexpr (is_solid<M, P>)
+      if (material.shear_stiffness(p) > 0) block[1] = std::clamp(1 - p.damage, 0.0, 1.0);
+    block[2] = p.mass / p.density;
+    auto middle = p.velocity;
+    if constexpr (is_solid<M, P>) middle -= p.kick;
+    for (std::size_t a = 0; a < P::dimension; ++a)
+      task.solid[(3 + a) / row_block * task.block_stride + row_block * k + (3 + a) % row_block] = middle[a];
+  });
+}
+
+/// L of the correction: 1 / B, but bounded; B^3 / (B^4 + e^4), normalised to 1 for B = 1, is never more than 5.7.
+template <int D>
+Tensor<D> correction_of(Tensor<D> const& spread) {
+  constexpr double e4 = 1e-4;
+  auto const square = dot(spread, spread);
+  return dot(dot(square, spread), inverse(dot(square, square) + Tensor<D>::identity() * e4)) * (1 + e4);
+}
+
+/// The vector b for which Sum phi r (1 - b.r) = 0. Where all neighbours lie on a line or in a plane, b is along it.
+template <int D>
+Vector<D> tilt_of(SolidSum<D, double> const& sums) {
+  double const size = trace(sums.near_spread);
+  if (!(size > 0)) return {};
+  return dot(inverse(sums.near_spread / size + Tensor<D>::identity() * 1e-10), sums.offset / size);
+}
+
+/// The particle with those fields that follow from strain at a later time.
+template <class P>
+P advanced(P p, typename P::Influence const& rates, double time) {
+  p.density += rates.density_rate * time;
+  p.stress += rates.stress_rate * time;
+  p.plastic_strain += rates.plastic_rate * time;
+  p.damage += rates.damage_rate * time;
+  p.hourglass_strain += rates.hourglass_rate * time;
+  return p;
+}
+
+template <class Influence>
+void add(Influence& to, Influence const& more) {
+  static_assert(std::is_trivially_copyable_v<Influence> && sizeof(Influence) % sizeof(double) == 0);
+  auto* const sum = reinterpret_cast<double*>(&to);
+  auto const* const x = reinterpret_cast<double const*>(&more);
+  for (std::size_t c = 0; c < sizeof(Influence) / sizeof(double); ++c) sum[c] += x[c];
+}
+
+/// What the force pass of solids reads of a particle, and the rates that go with it. Fields that lag are completed here:
+/// forces, and the fluxes that are returned, are of those. The pressure is corrected only where the density evolves.
+template <class M, class P>
+Fluxes<P::dimension> find_strength(M const& material, MaterialTask const& task, std::size_t k, P& p,
+                                   Vector<P::dimension> const& temperature_gradient, typename P::Influence& influence) {
+  constexpr int D = P::dimension;
+  auto const& sums = reinterpret_cast<SolidSum<D, double> const*>(task.solid_sums)[k];
+  double const volume = p.mass / p.density;
+  auto const l = correction_of(sums.spread);
+  Gradients<D> const gradients{dot(l, sums.gradient), temperature_gradient};
+  double const crowd = sums.weight / (task.solid[row_block * k] * HourglassStencil::crowd<D>);
+  double const scale = HourglassStencil::scale<D> / max(crowd, 1.0);
+  auto const tilt = tilt_of(sums);
+  typename P::Influence rates{};
+  rates.hourglass_rate = (sums.velocity - dot(tilt, sums.near_gradient)) * scale;
+  if (task.continuity) rates.density_rate = -p.density * trace(gradients.velocity);
+  if constexpr (has_rates<M, P>) {
+    typename P::Influence first = rates;  // for the middle of the step
+    if (p.lag != 0) material.rates(static_cast<P const&>(p), gradients, first);
+    material.rates(static_cast<P const&>(p.lag != 0 ? advanced(p, first, p.lag / 2) : p), gradients, rates);
+  }
+  rates.is_completed = 1;
+  add(influence, rates);
+
+  P const now = advanced(p, rates, p.lag);
+  Fluxes<D> fluxes{};
+  Tensor<D> correction{};
+  if (task.continuity) correction = l * material.state(now).pressure - Tensor<D>::identity() * p.pressure;
+  if constexpr (has_fluxes<M, P>) fluxes = material.fluxes(now, gradients);
+  correction = (correction + dot(l, fluxes.pressure) - fluxes.pressure) * volume;
+  auto const moment = now.hourglass_strain * (volume * material.shear_stiffness(now));
+  double values[2 * D + D * D], *value = values;
+  for (double const x : moment.component) *value++ = x * scale;
+  for (double const x : tilt.component) *value++ = x;
+  for (auto const& row : correction.component)
+    for (double const x : row) *value++ = x;
+  for (std::size_t c = 0; c < std::size(values); ++c)
+    task.solid[(2 + c / row_block) * task.block_stride + row_block * k + c % row_block] = values[c];
+  return fluxes;
+}
+
+/// Nothing, where there is no strength.
+template <int D>
+void clear_strength(MaterialTask const& task, std::size_t k) {
+  for (std::size_t c = 0; c < 2 * D + D * D; ++c)
+    task.solid[(2 + c / row_block) * task.block_stride + row_block * k + c % row_block] = 0;
+}
+
+template <class P>
+void add_solid_force(void const*, MaterialTask const& task, std::size_t begin, std::size_t end) {
+  each_member<P>(task, begin, end, [&](std::size_t k, std::size_t i, P&) {
+    auto const& found = reinterpret_cast<SolidForce<P::dimension, double> const*>(task.solid_sums)[k];
+    auto& influence = reinterpret_cast<typename P::Influence*>(task.influence)[i];
+    influence.force += found.force;
+    influence.heating += found.heating;
+  });
+}
+
 template <class P, class M>
 void find_fluxes(void const* the_material, MaterialTask const& task, std::size_t begin, std::size_t end) {
   constexpr int D = P::dimension;
@@ -136,20 +265,23 @@ void find_fluxes(void const* the_material, MaterialTask const& task, std::size_t
     }
     double values[1 + D * (D + 1) / 2 + D] = {};
     values[0] = task.balsara ? shear_switch(gradients.velocity, p.sound_speed, p.range) : 1;
-    if constexpr (has_fluxes<M, P>) {
-      Fluxes<D> const fluxes = material.fluxes(p, gradients);
+    auto const write = [&](Fluxes<D> const& fluxes) {
       double const by_density2 = (task.factor ? task.factor[k] : 1) / (p.density * p.density);
       double* value = values + 1;
       for (int a = 0; a < D; ++a)
         for (int b = a; b < D; ++b) *value++ = fluxes.pressure[a][b] * by_density2;
       for (int a = 0; a < D; ++a) *value++ = fluxes.heat[a] * by_density2;
+    };
+    [[maybe_unused]] auto& influence = reinterpret_cast<typename P::Influence*>(task.influence)[i];
+    if constexpr (is_solid<M, P>) {
+      write(find_strength(material, task, k, p, gradients.temperature, influence));
+    } else {
+      if constexpr (has_fluxes<M, P>) write(material.fluxes(p, gradients));
+      if constexpr (has_rates<M, P>) material.rates(static_cast<P const&>(p), gradients, influence);
+      if (task.solid) clear_strength<D>(task, k);
     }
     for (std::size_t c = 0; c < std::size(values); ++c)
       task.matter[c / row_block * task.block_stride + row_block * k + c % row_block] = values[c];
-    if constexpr (has_rates<M, P>) {
-      auto& influence = reinterpret_cast<typename P::Influence*>(task.influence)[i];
-      material.rates(static_cast<P const&>(p), gradients, influence);
-    }
   });
 }
 
@@ -165,7 +297,8 @@ void add_rates(void const*, MaterialTask const& task, std::size_t begin, std::si
     auto const& rates = reinterpret_cast<RateSum<D, double> const*>(task.rates)[k];
     influence.force += rates.acceleration * p.mass;
     if constexpr (!is_barotropic<M>) influence.heating += rates.heating * p.mass;
-    if (task.continuity) influence.density_rate += rates.compression;
+    if constexpr (!is_solid<M, P>)
+      if (task.continuity) influence.density_rate += rates.compression;
     if (task.adaptive) {
       if (!is_held(task, p)) influence.range_rate -= p.range / (D * p.density) * task.factor[k] * rates.compression;
     }
@@ -184,8 +317,17 @@ MaterialKernels material_kernels(M const& material) {
     kernels.diffusivity = [](void const* m, double const* particle) {
       return static_cast<M const*>(m)->diffusivity(static_cast<P const&>(*reinterpret_cast<Row<P> const*>(particle)));
     };
+  if constexpr (P::dimension > 1) {
+    kernels.cohesion = detail::find_cohesion<P, M>;
+    kernels.solid_force = detail::add_solid_force<P>;
+  }
+  if constexpr (detail::is_solid<M, P>)
+    kernels.shear_stiffness = [](void const* m, double const* particle) {
+      return static_cast<M const*>(m)->shear_stiffness(
+          static_cast<P const&>(*reinterpret_cast<Row<P> const*>(particle)));
+    };
   kernels.barotropic = is_barotropic<M>;
-  kernels.needs_gradients = has_fluxes<M, P> || has_rates<M, P>;
+  kernels.needs_gradients = has_fluxes<M, P> || has_rates<M, P> || detail::is_solid<M, P>;
   if constexpr (has_constant_push<M> && is_barotropic<M>) {
     kernels.constant_push = true;
     kernels.push = material.pressure_by_density2();

@@ -29,6 +29,15 @@ struct SmoothKernelTable {
 template <InstructionSet set, class Shape>
 SmoothKernelTable const& smooth_kernels();
 
+/// The passes of solids: gradients and what hourglass control sums, and the forces.
+struct SolidPasses {
+  PairKernel sums = nullptr, forces = nullptr;
+};
+
+/// In 2D or 3D.
+template <InstructionSet set>
+SolidPasses solid_passes(WeightShape shape, int dimension, bool own_ranges);
+
 /// The table of a weight, in the instruction set in use.
 SmoothKernelTable const& smooth_kernels_of(WeightShape shape);
 

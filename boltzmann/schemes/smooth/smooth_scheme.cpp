@@ -31,12 +31,19 @@ std::size_t matter_blocks(int dimension) {
   return in_dimension(dimension, [](auto d) { return blocks_of<SmoothMatter<d>> - blocks_of<SmoothFluid<d>>; });
 }
 
+/// Behind those of matter.
+std::size_t solid_blocks(int dimension) {
+  return in_dimension(dimension, [](auto d) { return blocks_of<SmoothSolid<d>> - blocks_of<SmoothMatter<d>>; });
+}
+
 /// What each number of a point's row is, for its images.
-std::vector<ImageComponent> image_components(int dimension, bool matter) {
+std::vector<ImageComponent> image_components(int dimension, bool matter, bool solid) {
   return in_dimension(dimension, [&](auto d) {
     constexpr int D = d;
-    std::vector<ImageComponent> components((matter ? blocks_of<SmoothMatter<D>> : blocks_of<SmoothFluid<D>>)*row_block,
-                                           {ImageRule::same, 0, 0});
+    std::size_t const blocks = solid    ? blocks_of<SmoothSolid<D>>
+                               : matter ? blocks_of<SmoothMatter<D>>
+                                        : blocks_of<SmoothFluid<D>>;
+    std::vector<ImageComponent> components(blocks * row_block, {ImageRule::same, 0, 0});
     std::size_t const fluid = blocks_of<SmoothPlace<D>> * row_block;
     for (int a = 0; a < D; ++a) {
       components[static_cast<std::size_t>(a)] = {ImageRule::position, a, 0};
@@ -48,6 +55,16 @@ std::vector<ImageComponent> image_components(int dimension, bool matter) {
     for (int a = 0; a < D; ++a)
       for (int b = a; b < D; ++b) components[next++] = {ImageRule::tensor, a, b};
     for (int a = 0; a < D; ++a) components[next++] = {ImageRule::heat_flux, a, 0};
+    if (!solid) return components;
+    next = blocks_of<SmoothMatter<D>> * row_block + 3;
+    for (int a = 0; a < D; ++a) components[next++] = {ImageRule::velocity, a, 0};
+    next = (blocks_of<SmoothMatter<D>> + 2) * row_block;
+    for (int a = 0; a < D; ++a) {
+      components[next + static_cast<std::size_t>(a)] = {ImageRule::displacement, a, 0};
+      components[next + static_cast<std::size_t>(D + a)] = {ImageRule::normal_vector, a, 0};
+      for (int b = 0; b < D; ++b)
+        components[next + static_cast<std::size_t>((2 + a) * D + b)] = {ImageRule::tensor, a, b};
+    }
     return components;
   });
 }
@@ -286,11 +303,12 @@ void SmoothScheme::prepare(bool keep_lists) {
     throw Error("ranges that vary follow densities that are summed; density_from(DensityFrom::summation) has these");
   if (!hood_) {
     check_heating();
-    bool const matter = recipe().gradients;
+    bool const matter = recipe().gradients, solid = recipe().solids;
     hood_ = std::make_unique<Neighbourhood>(box());
     members_of_build_ = 0;
     summed_.hold = false;
-    hood_->copy(*points_, 1 + (matter ? matter_blocks(dimension) : 0)).components(image_components(dimension, matter));
+    hood_->copy(*points_, 1 + (matter ? matter_blocks(dimension) : 0) + (solid ? solid_blocks(dimension) : 0))
+        .components(image_components(dimension, matter, solid));
     hood_->add(*points_, *points_, vary ? room_to_grow * longest_ : longest_);
     hood_->skin(skin_ >= 0 ? skin_ : skin_of_range * hood_->cutoff(0));
     hood_->divide(division_, threads());
@@ -382,6 +400,7 @@ SmoothScheme::Recipe SmoothScheme::recipe() const {
   recipe.own_ranges = variable_ || shortest_ != longest_;
   recipe.viscous = viscosity_.alpha > 0 || viscosity_.beta > 0;
   recipe.gradients = viscosity_.balsara || any([](auto const& kernels) { return kernels.needs_gradients; });
+  recipe.solids = any([](auto const& kernels) { return kernels.shear_stiffness != nullptr; });
   recipe.uniform = !recipe.own_ranges && !recipe.viscous && !recipe.gradients &&
                    density_from_ == DensityFrom::summation &&
                    !any([&](auto const& kernels) { return !kernels.constant_push || kernels.push != push; });
@@ -416,6 +435,7 @@ void SmoothScheme::set_tasks(Recipe const& recipe, SortedCopy& copy) {
     task.members = loaded_.size() == 1 && !division_ ? nullptr : loaded->members.data();
     task.fluid = copy.block(fluid);
     task.matter = copy.extra_blocks() > 1 ? copy.block(fluid + 1) : nullptr;
+    if (recipe.solids) task.solid = copy.block(copy.blocks() + copy.extra_blocks() - solid_blocks(box().dimension()));
     task.block_stride = copy.block_stride();
     task.factor = recipe.own_ranges ? factors_.data() : nullptr;
     task.adaptive = variable_.has_value();
@@ -471,6 +491,7 @@ void SmoothScheme::find(Until until, bool looking) {
   if (!recipe.uniform) copy.refresh_images(fluid, matter, threads_for(copy.owned(), 1, threads()));
 
   // Step 3, and the fluxes of step 4.
+  if (recipe.solids) sum_solids(recipe, copy);
   std::vector<std::vector<double>> aside;  // rates that nobody wants
   if (until == Until::fluxes)
     for (auto& loaded : loaded_)
@@ -488,6 +509,29 @@ void SmoothScheme::find(Until until, bool looking) {
   run_pass(recipe.rates, recipe.uniform ? D : D + 2, sums_);
   for (auto& loaded : loaded_) loaded->task.rates = sums_.data();
   run_material(&MaterialKernels::rates);
+  if (recipe.solids) add_solid_forces(recipe);
+}
+
+SolidPasses SmoothScheme::solid_passes_of(Recipe const& recipe) const {
+  return for_instruction_set(
+      [&](auto set) { return solid_passes<decltype(set)::value>(shape_, box().dimension(), recipe.own_ranges); });
+}
+
+/// What the strength of solids needs besides the gradients of all; see solid_passes.hpp.
+void SmoothScheme::sum_solids(Recipe const& recipe, SortedCopy& copy) {
+  auto const D = static_cast<std::size_t>(box().dimension());
+  std::size_t const first = copy.blocks() + copy.extra_blocks() - solid_blocks(box().dimension());
+  run_material(&MaterialKernels::cohesion);
+  if (division_) bring(copy, first, first + 2);
+  copy.refresh_images(first, first + 2, threads_for(copy.owned(), 1, threads()));
+  run_pass(solid_passes_of(recipe).sums, 1 + 2 * D + 4 * D * D, solid_sums_);
+  for (auto& loaded : loaded_) loaded->task.solid_sums = solid_sums_.data();
+}
+
+void SmoothScheme::add_solid_forces(Recipe const& recipe) {
+  run_pass(solid_passes_of(recipe).forces, static_cast<std::size_t>(box().dimension()) + 1, solid_sums_);
+  for (auto& loaded : loaded_) loaded->task.solid_sums = solid_sums_.data();
+  run_material(&MaterialKernels::solid_force);
 }
 
 void SmoothScheme::add_influences(double time) {
@@ -546,7 +590,7 @@ void SmoothScheme::make_reversible(double) {
 
 std::size_t SmoothScheme::bytes() const {
   auto const of = [](auto const& vector) { return vector.capacity() * sizeof(vector[0]); };
-  std::size_t bytes = points_->bytes() + of(summed_.sums) + of(sums_) + of(factors_);
+  std::size_t bytes = points_->bytes() + of(summed_.sums) + of(sums_) + of(solid_sums_) + of(factors_);
   for (auto const& loaded : loaded_) bytes += of(loaded->members);
   return bytes + (hood_ ? hood_->bytes() : 0);
 }

@@ -90,7 +90,8 @@ class SmoothScheme final : public Scheme {
 
   /// The longest step that follows sound, forces and diffusion from particle to particle: the smallest of 0.4 h / (c (1
   /// + 0.6 alpha)), sqrt(h / acceleration) / 4 and h^2 / 8 over the diffusivity, h being the smoothing length: half the
-  /// range, or a third for the quintic spline. Accelerations are those of the last calculation, if there was one.
+  /// range, or a third for the quintic spline; in solids also 0.35 spacing / shear speed, for hourglass control.
+  /// Accelerations are those of the last calculation, if there was one.
   double courant_step();
 
   void add_influences(double time) override;
@@ -136,11 +137,15 @@ class SmoothScheme final : public Scheme {
     bool own_ranges = false;  // not one range for all
     bool viscous = false;     // artificially
     bool gradients = false;   // are needed
+    bool solids = false;      // with a shear stiffness
     bool uniform = false;     // P / rho^2 is the same for all: forces need no density
     SmoothPasses const* passes = nullptr;
     PairKernel rates = nullptr;  // of the passes
   };
   Recipe recipe() const;
+  SolidPasses solid_passes_of(Recipe const& recipe) const;
+  void sum_solids(Recipe const& recipe, SortedCopy& copy);
+  void add_solid_forces(Recipe const& recipe);
   void set_tasks(Recipe const& recipe, SortedCopy& copy);
   void find_places(bool looking = false);
   void find(Until until, bool looking = false);
@@ -191,7 +196,8 @@ class SmoothScheme final : public Scheme {
     For are_for;
     bool hold = false;  // positions, masses and ranges are the same since
   } summed_;
-  std::vector<double> sums_;     // of the last other pass
+  std::vector<double> sums_;  // of the last other pass
+  std::vector<double> solid_sums_;
   std::vector<double> factors_;  // grad-h
   std::size_t calculations_ = 0, members_of_build_ = 0;
   double time_ = 0;
