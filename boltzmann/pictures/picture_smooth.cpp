@@ -51,6 +51,14 @@ SmoothColumn smooth_column(Scene& scene, SmoothField const& field, std::string c
   return field.column(name);
 }
 
+/// That of the picture; a range that fits, unless one is given or the particles have their own.
+Smoothing smoothing_of(Scene const& scene, std::vector<AnyEnsemble*> const& of) {
+  Smoothing smoothing = scene.picture.smoothing;
+  bool const own = std::all_of(of.begin(), of.end(), [](auto* e) { return e->find_field("range") != nullptr; });
+  if (smoothing.range == 0 && !own) smoothing.range = fitting_range(of, scene.box());
+  return smoothing;
+}
+
 }  // namespace
 
 Canvas draw_smooth_field(Scene& scene) {
@@ -58,10 +66,7 @@ Canvas draw_smooth_field(Scene& scene) {
   auto const of = ensembles_with(scene, name);
   if (std::all_of(of.begin(), of.end(), [](auto* e) { return e->size() == 0; }))
     return scene.too_few("a smooth field needs particles, and there are none");
-  Smoothing smoothing = scene.picture.smoothing;
-  bool const own = std::all_of(of.begin(), of.end(), [](auto* e) { return e->find_field("range") != nullptr; });
-  if (smoothing.range == 0 && !own) smoothing.range = fitting_range(of, scene.box());
-  SmoothField const field(of, scene.box(), smoothing);
+  SmoothField const field(of, scene.box(), smoothing_of(scene, of));
   auto const what = field.meaning(name);
   auto const [unit, factor] = scene.shown_in(what.dimension);
 

@@ -89,17 +89,7 @@ class ColumnSum {
       for (std::size_t k = 0; k < packs; ++k)
         energy_ += select(load_pack<W>(square + k * W) < cutoff2, load_pack<W>(energy + k * step), zero);
       if (!(zero_at > 0)) return;
-      // Less the energy at the cut-off in the same direction; along x where two particles are at one place.
-      for (std::size_t k = 0; k < packs; ++k) {
-        Real const s = load_pack<W>(square + k * W), stretched = zero_at * rsqrt(s);
-        auto const valid = s < cutoff2;
-        auto const apart = s > least_square;
-        for (std::size_t c = 0; c < D; ++c)
-          store_pack<W>(work.column(c) + k * W,
-                        select(apart, load_pack<W>(d[c] + k * W) * stretched, Real(c == 0 ? zero_at : 0.0)));
-        store_pack<W>(square + k * W,
-                      select(valid, Real(zero_at * zero_at), Real(std::numeric_limits<double>::quiet_NaN())));
-      }
+      stretch(work, packs, cutoff2, zero_at);  // less the energy at the cut-off in the same direction
       run_program<W>(work, program, packs);
       for (std::size_t k = 0; k < packs; ++k) {
         Real const s = load_pack<W>(square + k * W);
@@ -127,6 +117,21 @@ class ColumnSum {
   }
 
  private:
+  /// Moves the sources of pairs that count to this distance, in their directions; along x where two particles are at one
+  /// place.
+  static void stretch(Workspace<W>& work, std::size_t packs, double cutoff2, double distance) {
+    double* const square = work.column(D);
+    for (std::size_t k = 0; k < packs * W; k += W) {
+      Real const s = load_pack<W>(square + k), stretched = distance * rsqrt(s);
+      auto const apart = s > least_square;
+      for (std::size_t c = 0; c < D; ++c) {
+        double* const d = work.column(c) + k;
+        store_pack<W>(d, select(apart, load_pack<W>(d) * stretched, Real(c == 0 ? distance : 0.0)));
+      }
+      store_pack<W>(square + k,
+                    select(s < cutoff2, Real(distance * distance), Real(std::numeric_limits<double>::quiet_NaN())));
+    }
+  }
   /// Of an influence on the line of centres. Within a larger function the compiler leaves a sum in memory, for which each
   /// pack waits.
   [[gnu::noinline]] void add_along(double const* factor, double const* const* d, double const* square,
