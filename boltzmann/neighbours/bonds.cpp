@@ -4,6 +4,7 @@
 #include <boltzmann/core/error.hpp>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -62,6 +63,32 @@ std::vector<std::array<std::uint32_t, N>> repeated(std::vector<std::array<std::u
 template std::vector<BondMembers> repeated(std::vector<BondMembers> const&, std::size_t, std::size_t);
 template std::vector<AngleMembers> repeated(std::vector<AngleMembers> const&, std::size_t, std::size_t);
 template std::vector<DihedralMembers> repeated(std::vector<DihedralMembers> const&, std::size_t, std::size_t);
+
+template <std::size_t N>
+void refuse_repeated(std::vector<std::array<std::uint32_t, N>> const& tuples,
+                     std::function<std::string(std::size_t k)> const& place, std::string_view what) {
+  std::vector<std::pair<std::array<std::uint32_t, N>, std::size_t>> sorted;
+  sorted.reserve(tuples.size());
+  for (std::size_t k = 0; k < tuples.size(); ++k) {
+    auto one = tuples[k];
+    if (one.back() < one.front()) std::reverse(one.begin(), one.end());
+    sorted.emplace_back(one, k);
+  }
+  std::sort(sorted.begin(), sorted.end());
+  auto const same = [](auto const& a, auto const& b) { return a.first == b.first; };
+  auto const twice = std::adjacent_find(sorted.begin(), sorted.end(), same);
+  if (twice == sorted.end()) return;
+  std::size_t const first = twice[0].second, second = twice[1].second;
+  throw Error(fmt::format("{}: [{}] ({}) and [{}] ({}) are the same; leave one out", what,
+                          fmt::join(tuples[first], ", "), place(first), fmt::join(tuples[second], ", "),
+                          place(second)));
+}
+template void refuse_repeated(std::vector<BondMembers> const&, std::function<std::string(std::size_t)> const&,
+                              std::string_view);
+template void refuse_repeated(std::vector<AngleMembers> const&, std::function<std::string(std::size_t)> const&,
+                              std::string_view);
+template void refuse_repeated(std::vector<DihedralMembers> const&, std::function<std::string(std::size_t)> const&,
+                              std::string_view);
 
 std::vector<Connection> connections_of(std::span<BondMembers const> bonds) {
   std::vector<Connection> connections;

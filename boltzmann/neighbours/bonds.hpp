@@ -6,7 +6,10 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
+#include <string>
+#include <string_view>
 #include <vector>
 
 namespace boltzmann {
@@ -26,6 +29,12 @@ std::vector<BondMembers> chain_bonds(std::size_t size, std::size_t length);
 template <std::size_t N>
 std::vector<std::array<std::uint32_t, N>> repeated(std::vector<std::array<std::uint32_t, N>> const& first,
                                                    std::size_t length, std::size_t size);
+
+/// Error if a bond, angle or dihedral is named twice, forwards or backwards. `place(k)` says where tuple k stands, `what`
+/// which list it is: "angles of 'm'". (Terms of several laws on the same particles are lists of their own.)
+template <std::size_t N>
+void refuse_repeated(std::vector<std::array<std::uint32_t, N>> const& tuples,
+                     std::function<std::string(std::size_t k)> const& place, std::string_view what);
 
 /// The same bonds for PairScheme::connect().
 std::vector<Connection> connections_of(std::span<BondMembers const> bonds);

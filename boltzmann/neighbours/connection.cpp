@@ -8,6 +8,21 @@
 #include <algorithm>
 
 namespace boltzmann {
+namespace {
+
+/// The connections that have this pair.
+std::string naming(std::span<Connection const> connections, std::size_t i, std::size_t j) {
+  std::string text;
+  for (std::size_t k = 0; k < connections.size(); ++k) {
+    auto const& c = connections[k];
+    if (j - i == c.interval && i >= c.first && j <= c.last && (i - c.first) % c.interval == 0)
+      text +=
+          fmt::format("{}[{}, {}, {}] (number {} from 0)", text.empty() ? "" : " and ", c.first, c.last, c.interval, k);
+  }
+  return text;
+}
+
+}  // namespace
 
 PartnerList connected_pairs(std::span<Connection const> connections, std::size_t size) {
   std::vector<std::vector<std::uint32_t>> partners(size);
@@ -27,7 +42,11 @@ PartnerList connected_pairs(std::span<Connection const> connections, std::size_t
   for (std::size_t i = 0; i < size; ++i) {
     auto& mine = partners[i];
     std::sort(mine.begin(), mine.end());
-    mine.erase(std::unique(mine.begin(), mine.end()), mine.end());
+    if (auto const twice = std::adjacent_find(mine.begin(), mine.end()); twice != mine.end())
+      throw Error(
+          fmt::format("particles {} and {} are connected twice: {}; leave one out, or for two laws write two "
+                      "influences",
+                      i, *twice, naming(connections, i, *twice)));
     list.index.insert(list.index.end(), mine.begin(), mine.end());
     while (list.index.size() % PartnerList::padding != 0) list.index.push_back(static_cast<std::uint32_t>(i));
     list.start.push_back(list.index.size());

@@ -24,7 +24,7 @@ struct PartnerList {
 
 /// The union of connections among `size` particles as a full list in the order of partners' numbers, padded with each
 /// particle's own number. Error if a connection names a particle that does not exist, runs backwards, or has interval
-/// 0.
+/// 0, or if a pair is in two of them.
 PartnerList connected_pairs(std::span<Connection const> connections, std::size_t size);
 
 }  // namespace boltzmann

@@ -56,6 +56,14 @@ std::vector<Connection> read_connections(Item const& item, AnyEnsemble const* en
       connections.push_back({numbers[0], numbers[1], numbers[2]});
     }
   }
+  if (ensemble)
+    catch_errors(reading, item.place, [&] {
+      try {
+        connected_pairs(connections, ensemble->size());
+      } catch (Error const& error) {
+        throw Error(fmt::format("connect: {}", error.what()));
+      }
+    });
   return connections;
 }
 
@@ -410,7 +418,10 @@ class InfluenceReader {
     } else {
       connections_ = read_connections(*connect_, a_ ? a_->particles : nullptr, reading_);
     }
-    if (between_ || by_) reading_.mistake(connect_->place, "connect: connections are within one ensemble; write 'on'");
+    if (between_ || by_)
+      reading_.mistake(connect_->place,
+                       "connect: connections are within one ensemble; put the particles into one and write "
+                       "'on'. A pivot that stays where it is: class Tethered with the law 'tether'");
     if (section_.has("cutoff")) reading_.mistake(section_.place("cutoff"), "cutoff: connections have none");
   }
 

@@ -21,6 +21,7 @@ std::vector<std::array<std::uint32_t, N>> read_file(std::string const& path) {
   std::ifstream file(path);
   if (!file) throw Error(fmt::format("{} can't be read", path));
   std::vector<std::array<std::uint32_t, N>> all;
+  std::vector<int> lines;
   std::string line;
   for (int number = 1; read_line(file, line, path); ++number) {
     line = line.substr(0, line.find('#'));
@@ -33,7 +34,10 @@ std::vector<std::array<std::uint32_t, N>> read_file(std::string const& path) {
     if (!good || words >> rest)
       throw Error(fmt::format("{}:{}: {} numbers of particles are needed, not '{}'", path, number, N, line));
     all.push_back(members);
+    lines.push_back(number);
   }
+  refuse_repeated(
+      all, [&](std::size_t k) { return fmt::format("line {}", lines[k]); }, path);
   return all;
 }
 
@@ -54,6 +58,14 @@ std::vector<std::array<std::uint32_t, N>> read_list(Item const& item, char const
     }
     all.push_back(members);
   }
+  catch_errors(reading, item.place, [&] {
+    refuse_repeated(
+        all,
+        [&](std::size_t k) {
+          return fmt::format("line {}:{}", item.elements[k].place.line, item.elements[k].place.column);
+        },
+        key);
+  });
   return all;
 }
 

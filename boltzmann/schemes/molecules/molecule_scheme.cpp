@@ -20,6 +20,15 @@ constexpr double tuple_work = 1;
 
 char const* name_of_tuple(std::size_t each) { return each == 3 ? "angle" : "dihedral"; }
 
+std::string number_of_tuple(std::size_t k) { return fmt::format("number {} from 0", k); }
+
+template <std::size_t N>
+std::vector<std::array<std::uint32_t, N>> tuples_of(std::vector<std::uint32_t> const& members) {
+  std::vector<std::array<std::uint32_t, N>> all(members.size() / N);
+  for (std::size_t k = 0; k < members.size(); ++k) all[k / N][k % N] = members[k];
+  return all;
+}
+
 void check_tuples(AnyEnsemble const& ensemble, std::size_t each, std::vector<std::uint32_t> const& members) {
   char const* name = name_of_tuple(each);
   int const least = each == 3 ? 2 : 3;
@@ -36,6 +45,11 @@ void check_tuples(AnyEnsemble const& ensemble, std::size_t each, std::vector<std
       for (std::size_t n = 0; n < m; ++n)
         if (members[first + n] == i) throw Error(fmt::format("{} {} names particle {} twice", name, first / each, i));
     }
+  std::string const what = fmt::format("{}s of '{}'", name, ensemble.name());
+  if (each == 3)
+    refuse_repeated(tuples_of<3>(members), number_of_tuple, what);
+  else
+    refuse_repeated(tuples_of<4>(members), number_of_tuple, what);
 }
 
 }  // namespace
