@@ -17,12 +17,16 @@ class RigidLeapFrog final : public Integrator {
                               to_string(inner_->method())));
     if (!inner_->same_for_all())
       throw Error(
-          fmt::format("some particles of '{}' are frozen, which rigid bonds do not know", bonds_->ensemble().name()));
+          fmt::format("some particles of '{}' are frozen, which rigid bonds do not know: tether the particle to its "
+                      "place by a stiff spring (class Tethered, law tether), or give it a large mass",
+                      bonds_->ensemble().name()));
   }
 
   Method method() const override { return inner_->method(); }
   int stages() const override { return inner_->stages(); }
   double time_after(int stage) const override { return inner_->time_after(stage); }
+  std::span<double const> taken_freedom() const override { return bonds_->taken_freedom(); }
+  void settle_velocities() override { bonds_->correct_velocities(threads_); }
   std::vector<Carried> carried() override { return inner_->carried(); }
   std::string undivided() const override { return inner_->undivided(); }
   void divide(Division* division) override {

@@ -119,6 +119,10 @@ class Integrator {
   virtual bool same_for_all() const { return true; }
   /// The numbers of those that stay where they are while others move.
   virtual std::span<std::uint32_t const> resting() const { return {}; }
+  /// Of each particle: the degrees of freedom that rigid bonds take (Mobility::taken); empty: none.
+  virtual std::span<double const> taken_freedom() const { return {}; }
+  /// Takes from the velocities what rigid bonds forbid, after they were changed from outside.
+  virtual void settle_velocities() {}
   /// What it keeps of each particle from one stage of a step to the next, besides the row: so many numbers.
   struct Carried {
     double* numbers;

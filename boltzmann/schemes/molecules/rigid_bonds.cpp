@@ -1,10 +1,11 @@
-// Each molecule's bonds in turn, until all of them hold; those of a triangle all at once.
+// Which bonds make a molecule, what each molecule is, and the loop over molecules.
 #include <boltzmann/schemes/molecules/rigid_bonds.hpp>
 
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/exact_sum.hpp>
 #include <boltzmann/core/threads.hpp>
-#include <boltzmann/schemes/molecules/rigid_triangle.hpp>
+#include <boltzmann/schemes/molecules/bond_rank.hpp>
+#include <boltzmann/schemes/molecules/rigid_groups.hpp>
 
 #include <fmt/format.h>
 
@@ -15,7 +16,6 @@
 namespace boltzmann {
 namespace {
 
-constexpr int max_turns = 1000;
 constexpr std::size_t molecules_grain = 256;
 constexpr std::uint32_t no_molecule = ~std::uint32_t{0};
 
@@ -51,6 +51,9 @@ void RigidBonds::add(std::vector<BondMembers> const& bonds, double length) {
     bonds_.push_back(bond);
     length_.push_back(length);
   }
+  refuse_repeated(
+      bonds_, [&](std::size_t k) { return fmt::format("of length {}", length_[k]); },
+      "rigid bonds of '" + ensemble_.name() + "'");
   find_molecules();
 }
 
@@ -72,23 +75,29 @@ void RigidBonds::find_molecules() {
                    [&](std::size_t a, std::size_t b) { return find(bonds_[a][0]) < find(bonds_[b][0]); });
   std::vector<BondMembers> bonds;
   std::vector<double> lengths;
-  start_.clear();
-  first_of_.resize(particles_);
-  for (std::uint32_t i = 0; i < particles_; ++i) first_of_[i] = find(i);
-  molecule_.assign(particles_, no_molecule);
-  for (auto const k : order) {
-    auto const first = first_of_[bonds_[k][0]];
-    if (molecule_[first] == no_molecule) {
-      molecule_[first] = static_cast<std::uint32_t>(start_.size());
-      start_.push_back(bonds.size());
-    }
-    bonds.push_back(bonds_[k]);
-    lengths.push_back(length_[k]);
-  }
-  start_.push_back(bonds.size());
+  for (auto const k : order) bonds.push_back(bonds_[k]), lengths.push_back(length_[k]);
   bonds_ = std::move(bonds);
   length_ = std::move(lengths);
+  first_of_.resize(particles_);
+  for (std::uint32_t i = 0; i < particles_; ++i) first_of_[i] = find(i);
+  RigidGroups const groups(ensemble_, bonds_);
+  molecules_.clear(), member_.clear(), anchor_.clear();
+  molecule_.assign(particles_, no_molecule);
+  std::size_t bond = 0;
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    auto const members = groups.members(g), anchors = groups.anchors(g);
+    if (members.size() == 1) continue;
+    molecule_[members[0]] = static_cast<std::uint32_t>(molecules_.size());
+    std::size_t end = bond;
+    while (end < bonds_.size() && first_of_[bonds_[end][0]] == members[0]) ++end;
+    molecules_.push_back({bond, end, end, member_.size(), members.size(), no_molecule});
+    member_.insert(member_.end(), members.begin(), members.end());
+    anchor_.insert(anchor_.end(), anchors.begin(), anchors.end());
+    bond = end;
+  }
   before_.assign(bonds_.size(), Vector<3>{0, 0, 0});
+  arms_.assign(member_.size(), Vector<3>{0, 0, 0});
+  prepared_ = false;
 }
 
 RigidBonds::Member RigidBonds::member(std::uint32_t i) const {
@@ -118,134 +127,141 @@ void RigidBonds::keep_together(Division& division) const {
   division.keep_together(ensemble_, first_of_);
 }
 
+std::size_t RigidBonds::rank() {
+  prepare(false);
+  ExactSum sum;
+  for (double const taken : taken_) sum += taken;
+  return static_cast<std::size_t>(std::lround(sum.value()));
+}
+
+std::span<double const> RigidBonds::taken_freedom() {
+  prepare(false);
+  return taken_;
+}
+
 template <class Function>
 void RigidBonds::each_molecule(int threads, Function const& function) const {
   check_size();
-  std::size_t const molecules = start_.size() - 1;
-  int const used = threads_for(molecules, 8, threads);
+  int const used = threads_for(molecules_.size(), 8, threads);
   if (Share const* const share = ensemble_.share())
     return for_stretches(share->stretches, used, [&](Stretch const* one, Stretch const* last) {
       for (; one != last; ++one)
         for (std::size_t i = one->begin; i < one->end; ++i)
-          if (auto const m = molecule_[i]; m != no_molecule) function(start_[m], start_[m + 1]);
+          if (auto const m = molecule_[i]; m != no_molecule) function(m);
     });
-  for_ranges(molecules, molecules_grain, used, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t m = begin; m < end; ++m) function(start_[m], start_[m + 1]);
+  for_ranges(molecules_.size(), molecules_grain, used, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t m = begin; m < end; ++m) function(m);
   });
 }
 
+void RigidBonds::check_lengths() const {
+  for (std::size_t k = 0; k < bonds_.size(); ++k)
+    if (double const length = magnitude(between(bonds_[k][0], bonds_[k][1]));
+        !(std::abs(length - length_[k]) <= 0.25 * length_[k]))
+      throw Error(fmt::format("the rigid bond between particles {} and {} of '{}' begins {} long, and is to be {}",
+                              bonds_[k][0], bonds_[k][1], ensemble_.name(), length, length_[k]));
+}
+
+/// What each molecule is, for positions near its lengths; `move`: puts bodies there.
+void RigidBonds::prepare(bool move) {
+  if (prepared_ && !move) return;
+  check_size();
+  check_lengths();
+  taken_.assign(particles_, 0.0);
+  shapes_.clear();
+  for (auto& molecule : molecules_) examine(molecule, move);
+  prepared_ = true;
+}
+
+void RigidBonds::examine(Molecule& molecule, bool move) {
+  std::span const members(member_.data() + molecule.members, molecule.size);
+  BondedMolecule of{.dimension = box_.dimension()};
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> number;  // of a particle: its number in the molecule
+  for (std::uint32_t k = 0; k < members.size(); ++k) {
+    std::uint32_t const anchor = anchor_[molecule.members + k];
+    of.places.push_back(k == 0 ? Vector<3>{0, 0, 0} : of.places[anchor] + between(members[anchor], members[k]));
+    of.masses.push_back(1 / member(members[k]).inverse_mass);
+    of.numbers.push_back(members[k]);
+    number.emplace_back(members[k], k);
+  }
+  std::sort(number.begin(), number.end());
+  auto const own = [&](std::uint32_t i) {
+    return std::lower_bound(number.begin(), number.end(), std::pair{i, 0U})->second;
+  };
+  for (std::size_t k = molecule.bonds; k < molecule.end; ++k) {
+    of.bonds.push_back({own(bonds_[k][0]), own(bonds_[k][1])});
+    of.lengths.push_back(length_[k]);
+  }
+  BondRank found;
+  try {
+    found = rank_of_bonds(of);
+  } catch (Error const& error) {
+    throw Error(fmt::format("the rigid bonds of the molecule of particle {} of '{}' {}", members[0], ensemble_.name(),
+                            error.what()));
+  }
+  for (std::size_t k = 0; k < members.size(); ++k) taken_[members[k]] = found.taken[k];
+  molecule.shape = found.body ? shapes_.size() : no_molecule;
+  if (found.body) {
+    shapes_.push_back(shape_of(found.places, of.dimension));
+    molecule.triangle = of.bonds.size() == 3 && of.places.size() == 3 && !shapes_.back().line;
+    for (std::size_t k = 0; move && k < members.size(); ++k)
+      for (std::size_t a = 0; a < static_cast<std::size_t>(of.dimension); ++a)
+        member(members[k]).position[a] += found.places[k][a] - of.places[k][a];
+    return;
+  }
+  // Those that are solved first, in their order.
+  std::vector<BondMembers> bonds;
+  std::vector<double> lengths;
+  std::vector<bool> solved(of.bonds.size(), false);
+  for (auto const k : found.independent) solved[k] = true;
+  for (bool const one : {true, false})
+    for (std::size_t k = 0; k < solved.size(); ++k)
+      if (solved[k] == one) {
+        bonds.push_back(bonds_[molecule.bonds + k]);
+        lengths.push_back(length_[molecule.bonds + k]);
+      }
+  std::copy(bonds.begin(), bonds.end(), bonds_.begin() + static_cast<std::ptrdiff_t>(molecule.bonds));
+  std::copy(lengths.begin(), lengths.end(), length_.begin() + static_cast<std::ptrdiff_t>(molecule.bonds));
+  molecule.solved = molecule.bonds + found.independent.size();
+}
+
 void RigidBonds::begin_step(int threads) {
-  each_molecule(threads, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) before_[k] = between(bonds_[k][0], bonds_[k][1]);
+  prepare(false);
+  each_molecule(threads, [&](std::size_t m) {
+    Molecule const& one = molecules_[m];
+    if (one.shape != no_molecule && !one.triangle) return arms_of(one, noted_arms(one));
+    for (std::size_t k = one.bonds; k < one.solved; ++k) before_[k] = between(bonds_[k][0], bonds_[k][1]);
   });
 }
 
 void RigidBonds::correct_positions(double dt, int threads) {
-  int const D = box_.dimension();
-  double const per_time = dt != 0 ? 1 / dt : 0;
-  auto const triangle_is_corrected = [&](std::size_t begin, std::size_t end) {
-    auto triangle = RigidTriangle::of({bonds_.data() + begin, end - begin});
-    if (!triangle) return false;
-    RigidTriangle::Bonds now;
-    for (std::size_t i = 0; i < 3; ++i) {
-      now[i] = between(bonds_[begin + i][0], bonds_[begin + i][1]);
-      triangle->inverse_masses[i] = member(triangle->particles[i]).inverse_mass;
-    }
-    RigidTriangle::Bonds const was{before_[begin], before_[begin + 1], before_[begin + 2]};
-    auto const push = triangle->pushes(was, now, {length_[begin], length_[begin + 1], length_[begin + 2]}, tolerance_);
-    for (std::size_t i = 0; push && i < 3; ++i) {
-      Member const p = member(triangle->particles[i]);
-      auto const change = triangle->momentum(i, was, *push) * p.inverse_mass;
-      for (int a = 0; a < D; ++a) p.position[a] += change[a], p.velocity[a] += change[a] * per_time;
-    }
-    return push.has_value();
-  };
-  each_molecule(threads, [&](std::size_t begin, std::size_t end) {
-    if (triangle_is_corrected(begin, end)) return;
-    bool holds = false;
-    for (int turn = 0; turn < max_turns && !holds; ++turn) {
-      holds = true;
-      for (std::size_t k = begin; k < end; ++k) {
-        Vector<3> const now = between(bonds_[k][0], bonds_[k][1]);
-        double const square = length_[k] * length_[k], off = dot(now, now) - square;
-        if (std::abs(off) <= 2 * tolerance_ * square) continue;
-        holds = false;
-        Member const p = member(bonds_[k][0]), q = member(bonds_[k][1]);
-        double const along = dot(now, before_[k]);
-        if (!(along > 1e-3 * square)) {
-          turn = max_turns;  // it has turned by a right angle in one step
-          break;
-        }
-        double const push = off / (2 * (p.inverse_mass + q.inverse_mass) * along);
-        for (int a = 0; a < D; ++a) {
-          double const part = push * before_[k][a];
-          p.position[a] += p.inverse_mass * part;
-          q.position[a] -= q.inverse_mass * part;
-          p.velocity[a] += p.inverse_mass * part * per_time;
-          q.velocity[a] -= q.inverse_mass * part * per_time;
-        }
-      }
-    }
-    if (!holds)
-      throw PhysicsFailure(
-          fmt::format("the rigid bonds of the molecule of particle {} of '{}' can't be kept in this "
-                      "step; take a shorter one",
-                      bonds_[begin][0], ensemble_.name()));
+  each_molecule(threads, [&](std::size_t m) {
+    Molecule const& one = molecules_[m];
+    bool const done = one.triangle               ? correct_triangle(one, dt) || correct_bonds(one, dt)
+                      : one.shape != no_molecule ? correct_body(one, dt)
+                                                 : correct_bonds(one, dt);
+    if (done) return;
+    throw PhysicsFailure(
+        fmt::format("the rigid bonds of the molecule of particle {} of '{}' can't be kept in this "
+                    "step; take a shorter one",
+                    bonds_[one.bonds][0], ensemble_.name()));
   });
 }
 
 double RigidBonds::correct_velocities(int threads, Division* division) {
-  int const D = box_.dimension();
-  std::vector<double> added(bonds_.size(), 0.0);
-  auto const triangle_is_corrected = [&](std::size_t begin, std::size_t end) {
-    auto triangle = RigidTriangle::of({bonds_.data() + begin, end - begin});
-    if (!triangle) return false;
-    RigidTriangle::Numbers along{};
-    RigidTriangle::Bonds const now{before_[begin], before_[begin + 1], before_[begin + 2]};
-    for (std::size_t i = 0; i < 3; ++i) {
-      triangle->inverse_masses[i] = member(triangle->particles[i]).inverse_mass;
-      Member const p = member(bonds_[begin + i][0]), q = member(bonds_[begin + i][1]);
-      for (int a = 0; a < D; ++a) along[i] += now[i][a] * (q.velocity[a] - p.velocity[a]);
-    }
-    auto const push = triangle->impulses(now, along);
-    for (std::size_t i = 0; push && i < 3; ++i) {
-      Member const p = member(triangle->particles[i]);
-      auto const change = triangle->momentum(i, now, *push) * p.inverse_mass;
-      for (int a = 0; a < D; ++a) p.velocity[a] += change[a];
-      added[begin + i] = -0.5 * (*push)[i] * along[i];  // the bonds' rates are zero after it
-    }
-    return push.has_value();
-  };
-  each_molecule(threads, [&](std::size_t begin, std::size_t end) {
-    bool holds = false;
-    for (std::size_t k = begin; k < end; ++k) before_[k] = between(bonds_[k][0], bonds_[k][1]);  // no more needed
-    if (triangle_is_corrected(begin, end)) return;
-    for (int turn = 0; turn < max_turns && !holds; ++turn) {
-      holds = true;
-      for (std::size_t k = begin; k < end; ++k) {
-        Member const p = member(bonds_[k][0]), q = member(bonds_[k][1]);
-        Vector<3> const d = before_[k];
-        double along = 0, speed = 0;
-        for (int a = 0; a < D; ++a) {
-          along += d[a] * (q.velocity[a] - p.velocity[a]);
-          speed = std::max({speed, std::abs(p.velocity[a]), std::abs(q.velocity[a])});
-        }
-        if (!(std::abs(along) > tolerance_ * length_[k] * speed)) continue;
-        holds = false;
-        double const inverse = p.inverse_mass + q.inverse_mass, push = along / (inverse * dot(d, d));
-        // What it does to the kinetic energy: the work of the impulse at the mean velocity.
-        added[k] -= push * along - 0.5 * push * push * inverse * dot(d, d);
-        for (int a = 0; a < D; ++a) {
-          p.velocity[a] += p.inverse_mass * push * d[a];
-          q.velocity[a] -= q.inverse_mass * push * d[a];
-        }
-      }
-    }
-    if (!holds)
+  prepare(false);
+  std::vector<double> added(molecules_.size(), 0.0);
+  each_molecule(threads, [&](std::size_t m) {
+    Molecule const& one = molecules_[m];
+    std::optional<double> more;
+    if (one.triangle) more = correct_triangle_velocities(one);
+    if (!more) more = one.shape != no_molecule ? correct_body_velocities(one) : correct_bond_velocities(one);
+    if (!more)
       throw PhysicsFailure(
           fmt::format("the velocities of the molecule of particle {} of '{}' can't be brought in line "
                       "with its rigid bonds",
-                      bonds_[begin][0], ensemble_.name()));
+                      bonds_[one.bonds][0], ensemble_.name()));
+    added[m] = *more;
   });
   ExactSum work;
   work.add(added);
@@ -254,49 +270,22 @@ double RigidBonds::correct_velocities(int threads, Division* division) {
 }
 
 void RigidBonds::settle(int threads) {
+  prepare(true);
   begin_step(threads);
-  for (std::size_t k = 0; k < bonds_.size(); ++k)
-    if (double const length = magnitude(before_[k]); !(std::abs(length - length_[k]) <= 0.25 * length_[k]))
-      throw Error(fmt::format("the rigid bond between particles {} and {} of '{}' begins {} long, and is to be {}",
-                              bonds_[k][0], bonds_[k][1], ensemble_.name(), length, length_[k]));
   correct_positions(0, threads);
   correct_velocities(threads);
 }
 
-/// The forces that keep the second derivatives of all squares zero: r.(a_q - a_p) + |v_q - v_p|^2 = 0.
 void RigidBonds::add_virial(std::vector<double>& per_particle) const {
-  int const D = box_.dimension();
+  check_size();
   std::vector<Vector<3>> acceleration(particles_, Vector<3>{0, 0, 0});
   for (std::uint32_t i = 0; i < particles_; ++i)
-    for (int a = 0; a < D; ++a) acceleration[i][a] = ensemble_.influence(i)[a] * member(i).inverse_mass;
-  std::vector<double> tension(bonds_.size(), 0.0);  // q pulls p with tension times the vector from p to q
-  check_size();
-  for (std::size_t m = 0; m + 1 < start_.size(); ++m) {
-    std::size_t const begin = start_[m], end = start_[m + 1];
-    for (int turn = 0; turn < max_turns; ++turn) {
-      double largest = 0, greatest = 0;
-      for (std::size_t k = begin; k < end; ++k) {
-        auto const [i, j] = bonds_[k];
-        Member const p = member(i), q = member(j);
-        Vector<3> const d = between(i, j);
-        double off = dot(d, acceleration[j] - acceleration[i]);
-        for (int a = 0; a < D; ++a) off += (q.velocity[a] - p.velocity[a]) * (q.velocity[a] - p.velocity[a]);
-        double const more = off / ((p.inverse_mass + q.inverse_mass) * dot(d, d));
-        tension[k] += more;
-        acceleration[i] += d * (more * p.inverse_mass);
-        acceleration[j] -= d * (more * q.inverse_mass);
-        largest = std::max(largest, std::abs(more));
-        greatest = std::max(greatest, std::abs(tension[k]));
-      }
-      if (largest <= 1e-13 * greatest) break;
-    }
-  }
-  for (std::size_t k = 0; k < bonds_.size(); ++k) {
-    Vector<3> const d = between(bonds_[k][0], bonds_[k][1]);
-    for (auto const i : bonds_[k])
-      for (int a = 0; a < D; ++a)
-        for (int b = 0; b < D; ++b) per_particle[9 * i + 3 * a + b] -= 0.5 * tension[k] * d[a] * d[b];
-  }
+    for (int a = 0; a < box_.dimension(); ++a) acceleration[i][a] = ensemble_.influence(i)[a] * member(i).inverse_mass;
+  for (auto const& molecule : molecules_)
+    if (molecule.shape != no_molecule)
+      add_body_virial(molecule, acceleration, per_particle);
+    else
+      add_bond_virial(molecule, acceleration, per_particle);
 }
 
 }  // namespace boltzmann

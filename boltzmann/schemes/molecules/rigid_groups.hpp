@@ -22,6 +22,10 @@ class RigidGroups {
   std::span<std::uint32_t const> members(std::size_t group) const {
     return std::span(member_).subspan(start_[group], start_[group + 1] - start_[group]);
   }
+  /// Of each member, which one of the same group it is bonded to: one before it.
+  std::span<std::uint32_t const> anchors(std::size_t group) const {
+    return std::span(anchor_).subspan(start_[group], start_[group + 1] - start_[group]);
+  }
   AnyEnsemble& ensemble() const { return ensemble_; }
 
   struct Body {
