@@ -6,6 +6,7 @@
 #include <boltzmann/diagnoses/flow_impulse.hpp>
 #include <boltzmann/schemes/scheme.hpp>
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -30,6 +31,7 @@ struct Sample {
   std::span<MeshField const* const> mesh_fields = {};  ///< empty unless the diagnosis needs_mesh()
   int threads = 1;                                     ///< for whoever sums over all pairs
   FlowImpulse taken = {};                              ///< of vortices that were taken out of a plane flow, so far
+  std::array<bool, 3> momentum_is_kept = {};           ///< of the system, if it needs_kept_momentum()
 };
 
 /// What a diagnosis has gathered over a run: a function of a distance, a wave number or a time lag.
@@ -54,6 +56,8 @@ class Diagnosis {
   virtual bool needs_energies() const { return false; }
   virtual bool needs_virial() const { return false; }
   virtual bool needs_mesh() const { return false; }
+  /// Whether it counts degrees of freedom, and so has to know which momentum is kept.
+  virtual bool needs_kept_momentum() const { return false; }
   /// Whether it asks for sums over all particles alone, by measures.hpp, and for energies and the virial of them together.
   virtual bool sums() const { return false; }
   /// Whether it follows particles from look to look by their numbers.

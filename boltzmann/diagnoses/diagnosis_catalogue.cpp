@@ -383,13 +383,6 @@ void find_vortices(DiagnosisParameters& parameters, std::vector<Scheme*> const& 
   if (!schemes.empty()) VortexFlow::refuse_images(schemes.front()->box());
 }
 
-void find_rigid_bonds(DiagnosisParameters& parameters, std::vector<Scheme*> const& schemes) {
-  for (auto const* scheme : schemes)
-    if (auto const* molecules = dynamic_cast<MoleculeScheme const*>(scheme))
-      for (auto const& bonds : molecules->rigid_bonds())
-        parameters.rigid_bonds.emplace_back(bonds->ensemble().name(), bonds->size());
-}
-
 std::unique_ptr<Diagnosis> make_diagnosis(std::string_view kind, DiagnosisParameters const& parameters) {
   std::vector<std::string> names;
   for (auto const& entry : table()) {

@@ -26,9 +26,6 @@ std::vector<DiagnosisKind> const& diagnosis_kinds();
 /// What kinds that are of_flow need. Error if an axis is periodic, or if vortices act by several laws.
 void find_vortices(DiagnosisParameters& parameters, std::vector<Scheme*> const& schemes);
 
-/// What temperatures need: the degrees of freedom that rigid bonds take.
-void find_rigid_bonds(DiagnosisParameters& parameters, std::vector<Scheme*> const& schemes);
-
 /// The instrument of that kind. Error naming the kinds, ensembles or quantities there are, if one is unknown or
 /// missing, or a parameter is given that the kind does not look at.
 ///

@@ -44,8 +44,6 @@ struct DiagnosisParameters {
   UnitSystem units = UnitSystem::reduced();               ///< of numbers in formulas
   std::vector<MeshField const*> mesh_fields =
       {};  ///< what the mesh has, for kinds that are of_mesh; used by the constructor only
-  std::vector<std::pair<std::string, std::size_t>> rigid_bonds =
-      {};  ///< temperature: how many distances are kept in an ensemble of this name (find_rigid_bonds)
   std::vector<VortexSource> vortices = {};  ///< those that act, for kinds that are of_flow
   std::vector<int> mode = {};               ///< field-mode: periods in the box along each axis
   std::string axis = {};                    ///< wave-spectrum, heat-flux, slab, shock: "x", "y" or "z"

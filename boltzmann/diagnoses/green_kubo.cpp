@@ -46,9 +46,7 @@ std::vector<double> charge_current(Sample const& sample, int D) {
 
 std::vector<double> heat_current(Sample const& sample, int D) {
   auto const& measures = *sample.measures;
-  Triple drift = momentum(sample.ensembles);
-  double const mass = total_mass(sample.ensembles);
-  for (double& v : drift) v /= mass;
+  Triple const drift = common_velocity(sample.ensembles);
   std::array<ExactSum, 3> current;
   for (std::size_t e = 0; e < sample.ensembles.size(); ++e) {
     AnyEnsemble const& ensemble = *sample.ensembles[e];
@@ -61,6 +59,7 @@ std::vector<double> heat_current(Sample const& sample, int D) {
     Velocities const velocities = velocities_of(ensemble);
     int const at_mass = ensemble.field("mass").offset;
     for (std::size_t i = 0; i < ensemble.size(); ++i) {
+      if (!ensemble.mobility.moves(i)) continue;
       double v[3] = {0, 0, 0}, energy = measures.per_particle[e][i];
       for (int a = 0; a < D; ++a) {
         v[a] = velocities[i][a] - drift[a];

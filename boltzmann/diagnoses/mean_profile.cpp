@@ -76,8 +76,7 @@ void MeanProfile::measure(Sample const& sample, std::vector<double>& values) {
     if (needs_virial() && (sample.measures == nullptr || sample.measures->virial_per_particle.empty()))
       throw Error(
           "mean-profile: the virial of each particle, for pressures, is known only where all influences are pairs");
-    std::vector<AnyEnsemble const*> const all(sample.ensembles.begin(), sample.ensembles.end());
-    sums_->add(MassiveParticles(all, sample.measures, options_.ensembles), sample.box);
+    sums_->add(MassiveParticles(sample, sample.measures, options_.ensembles), sample.box);
     constant_ = sample.boltzmann_constant;
     looks_ += 1;
   }

@@ -39,6 +39,7 @@ class MeanProfile final : public Diagnosis {
   void measure(Sample const& sample, std::vector<double>& values) override;
   bool needs_energies() const override;
   bool needs_virial() const override;
+  bool needs_kept_momentum() const override { return true; }
   std::vector<GatheredTable> tables() const override;
   std::vector<double> state() const override;
   void restore(std::span<double const> state) override;

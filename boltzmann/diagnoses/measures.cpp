@@ -29,30 +29,36 @@ Sums& added_up(Ensembles of, Sums& sums) {
 
 Triple value_of(TripleSum const& sum) { return {sum[0].value(), sum[1].value(), sum[2].value()}; }
 
-/// Calls f(mass, velocity, position, dimension) for every particle that carries momentum.
+/// Calls f(mass, velocity, position, dimension) for every particle that moves and carries momentum.
 template <class Function>
 void for_each_body(Ensembles of, Function f) {
   for (AnyEnsemble const* ensemble : of) {
-    if (!carries_momentum(*ensemble)) continue;
+    if (!carries_momentum(*ensemble) || ensemble->mobility.all_rest) continue;
     int const mass = ensemble->field("mass").offset, velocity = ensemble->field("velocity").offset;
-    for_each_row_of_sums(*ensemble,
-                         [&](double const* row) { f(row[mass], row + velocity, row, ensemble->dimension()); });
+    for_each_range_of_sums(*ensemble, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        double const* const row = ensemble->row(i);
+        if (ensemble->mobility.moves(i)) f(row[mass], row + velocity, row, ensemble->dimension());
+      }
+    });
   }
 }
 
-/// Exact sums over all particles that carry momentum: f(mass, velocity, dimension, terms) writes the terms of one, with
+/// Exact sums over all particles that move and carry momentum: f(mass, velocity, dimension, terms) writes the terms of one, with
 /// velocities relative to the flow of a sheared box.
 template <std::size_t K, class Function>
 std::array<ExactSum, K> sums_over_bodies(Ensembles of, Box const* box, int threads, Function const& f) {
   std::array<ExactSum, K> sums;
   bool const flows = box && box->sheared();
   for (AnyEnsemble const* ensemble : of) {
-    if (!carries_momentum(*ensemble)) continue;
+    if (!carries_momentum(*ensemble) || ensemble->mobility.all_rest) continue;
     int const mass = ensemble->field("mass").offset, velocity = ensemble->field("velocity").offset,
               dimension = ensemble->dimension();
+    bool const all_move = ensemble->mobility.all_move();
     for_each_range_of_sums(*ensemble, [&](std::size_t begin, std::size_t end) {
       add_terms(sums, end - begin, threads, [&](std::size_t i, std::array<double, K>& terms) {
         double const* const row = ensemble->row(begin + i);
+        if (!all_move && !ensemble->mobility.moves(begin + i)) return;
         if (!flows) return f(row[mass], row + velocity, dimension, terms);
         Triple relative{};
         std::copy_n(row + velocity, dimension, relative.begin());
@@ -84,10 +90,6 @@ void check_group(AnyEnsemble const& ensemble, std::span<std::uint32_t const> gro
 }
 
 }  // namespace
-
-bool carries_momentum(AnyEnsemble const& ensemble) {
-  return velocity_field(ensemble) != nullptr && ensemble.find_field("mass") != nullptr;
-}
 
 bool has_velocities(AnyEnsemble const& ensemble) {
   return velocity_field(ensemble) != nullptr ||
@@ -162,36 +164,76 @@ double kinetic_energy(Ensembles of, int threads) {
   return 0.5 * sums[0].value();
 }
 
+namespace {
+
+/// Of all that move and carry momentum, along each axis and in total: momentum, and mass behind it.
+std::array<double, 4> momentum_and_mass(Ensembles of, Box const* box, int threads) {
+  auto const sums = sums_over_bodies<4>(of, box, threads, [](double mass, double const* velocity, int D, auto& terms) {
+    for (int a = 0; a < D; ++a) terms[a] = mass * velocity[a];
+    terms[3] = mass;
+  });
+  return {sums[0].value(), sums[1].value(), sums[2].value(), sums[3].value()};
+}
+
+/// Sum m (v_a - drift_a)^2
+Triple twice_kinetic(Ensembles of, Triple const& drift, Box const* box, int threads) {
+  return value_of(sums_over_bodies<3>(of, box, threads, [&](double mass, double const* velocity, int D, auto& terms) {
+    for (int a = 0; a < D; ++a) terms[a] = mass * (velocity[a] - drift[a]) * (velocity[a] - drift[a]);
+  }));
+}
+
+}  // namespace
+
+Triple common_velocity(Ensembles of, int threads) {
+  auto const total = momentum_and_mass(of, nullptr, threads);
+  if (!(total[3] > 0)) return {};
+  return {total[0] / total[3], total[1] / total[3], total[2] / total[3]};
+}
+
+KeptMomentum zero_momentum(Ensembles system, std::array<bool, 3> const& along, Box const* box, int threads) {
+  constexpr double zero = 1e-6;  // of k T, which a component that was drawn has as often as once in a thousand times
+  KeptMomentum kept;
+  if (std::find(along.begin(), along.end(), true) == along.end()) return kept;
+  auto const total = momentum_and_mass(system, box, threads);
+  Triple const square = twice_kinetic(system, {}, box, threads);
+  double moving = 0;
+  for (auto const* ensemble : system)
+    if (carries_momentum(*ensemble)) moving += static_cast<double>(number_moving(*ensemble));
+  kept.mass = total[3];
+  for (std::size_t a = 0; a < 3; ++a)
+    kept.along[a] = along[a] && kept.mass > 0 && total[a] * total[a] / kept.mass <= zero * square[a] / moving;
+  return kept;
+}
+
 Temperature temperature(Ensembles of, double boltzmann_constant, TemperatureOptions const& options) {
-  std::size_t count = 0;
   int axes = 1;
+  double freedom = 0;
   for (AnyEnsemble const* ensemble : of) {
     axes = ensemble->dimension();
-    if (carries_momentum(*ensemble)) count += ensemble->size();
+    freedom += freedom_of(*ensemble);
   }
   Triple drift{0, 0, 0};
+  KeptMomentum kept;
+  double mass = 1;
   if (options.subtract_drift) {
-    auto const sums = sums_over_bodies<4>(of, options.box, options.threads,
-                                          [](double mass, double const* velocity, int dimension, auto& terms) {
-                                            for (int a = 0; a < dimension; ++a) terms[a] = mass * velocity[a];
-                                            terms[3] = mass;
-                                          });
-    for (int a = 0; a < 3; ++a) drift[a] = sums[a].value() / sums[3].value();
+    auto const total = momentum_and_mass(of, options.box, options.threads);
+    for (std::size_t a = 0; a < 3; ++a) drift[a] = total[3] > 0 ? total[a] / total[3] : 0;
+    kept = {{true, true, true}, 1};
+  } else {
+    kept = zero_momentum(options.system, options.momentum_is_kept, options.box, options.threads);
+    if (std::find(kept.along.begin(), kept.along.end(), true) != kept.along.end())
+      mass = momentum_and_mass(of, options.box, options.threads)[3];
   }
-  auto const heat = sums_over_bodies<3>(of, options.box, options.threads,
-                                        [&](double mass, double const* velocity, int dimension, auto& terms) {
-                                          for (int a = 0; a < dimension; ++a)
-                                            terms[a] = mass * (velocity[a] - drift[a]) * (velocity[a] - drift[a]);
-                                        });
-  std::size_t const lost = options.subtract_drift ? 1 : 0;
+  Triple const heat = twice_kinetic(of, drift, options.box, options.threads);
+  Triple const along = freedom_along(freedom, axes, kept, mass);
   Temperature result;
-  double const freedom = static_cast<double>(count) - static_cast<double>(lost);
-  double sum = 0;
-  for (int a = 0; a < axes; ++a) {
-    result.component[a] = freedom > 0 ? heat[a].value() / (boltzmann_constant * freedom) : unknown;
-    sum += result.component[a];
+  double all = 0, left = 0;
+  for (std::size_t a = 0; a < static_cast<std::size_t>(axes); ++a) {
+    result.component[a] = along[a] > 1e-9 ? heat[a] / (boltzmann_constant * along[a]) : unknown;
+    all += heat[a];
+    left += along[a];
   }
-  result.total = sum / axes;
+  result.total = left > 1e-9 ? all / (boltzmann_constant * left) : unknown;
   return result;
 }
 

@@ -3,9 +3,11 @@
 // Numbers are in the simulation's units, of the state as it stands. Every function is an exact sum over the
 // particles (ExactSum), rounded once, so that results do not depend on their order, or on the number of threads. What a
 // class does not have does not count: an ensemble without mass or velocity (Tracer particles, vortices) adds nothing to
-// mass, momentum, kinetic energy and temperature. Components beyond the dimension are 0.
+// mass, momentum, kinetic energy and temperature. Components beyond the dimension are 0. Particles at rest (frozen or
+// deactivated: Mobility) have no momentum, kinetic energy or temperature, whatever their velocity field holds.
 #pragma once
 
+#include <boltzmann/particles/degrees_of_freedom.hpp>
 #include <boltzmann/particles/ensemble.hpp>
 #include <boltzmann/schemes/scheme.hpp>
 
@@ -25,6 +27,7 @@ using Tensor3 = std::array<std::array<double, 3>, 3>;
 /// What a measure is taken of: one ensemble, or several as one system. A view, for arguments.
 class Ensembles {
  public:
+  Ensembles() = default;
   Ensembles(AnyEnsemble const& one) : one_(&one) {}
   template <class List>
   requires std::convertible_to<List const&, std::span<AnyEnsemble const* const>> Ensembles(List const& list)
@@ -38,8 +41,6 @@ class Ensembles {
   std::span<AnyEnsemble const* const> list_;
 };
 
-/// Whether the class has a mass and a velocity, so that it carries momentum and heat.
-bool carries_momentum(AnyEnsemble const& ensemble);
 /// The velocities of an ensemble: velocities[i] are the dimension() components of particle i.
 struct Velocities {
   double const* first;
@@ -75,6 +76,8 @@ double total_mass(Ensembles of);
 Triple centre_of_mass(Ensembles of);
 /// Sum m v
 Triple momentum(Ensembles of, int threads = 1);
+/// Sum m v / Sum m of the particles that move; 0 of none.
+Triple common_velocity(Ensembles of, int threads = 1);
 /// Sum m (r - about) x v: one component in 1D (always 0) and in 2D (out of the plane), three in 3D. Particles that
 /// cross a periodic boundary change it: it is conserved in open space only.
 Triple angular_momentum(Ensembles of, Triple const& about = {0, 0, 0});
@@ -82,18 +85,26 @@ Triple angular_momentum(Ensembles of, Triple const& about = {0, 0, 0});
 double kinetic_energy(Ensembles of, int threads = 1);
 
 struct Temperature {
-  Triple component{};  ///< T_a = <m v_a^2> / k for each axis: equal in equilibrium
-  double total = 0;    ///< their mean over the axes
+  Triple component{};  ///< T_a = Sum m v_a^2 / (k f_a) for each axis: equal in equilibrium
+  double total = 0;    ///< Sum m v.v / (k f): that of all degrees of freedom
 };
 struct TemperatureOptions {
   bool subtract_drift = false;
   Box const* box = nullptr;  ///< where it is sheared, velocities are those relative to its flow
   int threads = 1;
+  Ensembles system = {};                      ///< all ensembles of the simulation, which share the kept momentum
+  std::array<bool, 3> momentum_is_kept = {};  ///< Simulation::momentum_is_kept(): of the system
 };
-/// Section 5.2.3.1. As the 1990 text has it the mean velocity is not subtracted. With subtract_drift the particles'
-/// common (mass-weighted) velocity is taken off, and the mean is over N - 1 degrees of freedom along each axis. NaN if
-/// there are no particles left to take a mean over.
+/// Temperature of the degrees of freedom that particles/degrees_of_freedom.hpp counts. As the text of 1990 has it
+/// (section 5.2.3.1) the mean velocity is not subtracted; but a momentum of the system that is kept and zero takes its
+/// degrees of freedom. With subtract_drift the common (mass-weighted) velocity of `of` is taken off, and one degree of
+/// freedom along each axis. NaN if no degree of freedom is left.
 Temperature temperature(Ensembles of, double boltzmann_constant, TemperatureOptions const& options = {});
+
+/// The momentum of a system that is kept, as far as it is zero: it then takes degrees of freedom. (One that is not zero
+/// is a part of the particles' motion, as they were loaded.) `along`: axes along which it is kept.
+KeptMomentum zero_momentum(Ensembles system, std::array<bool, 3> const& along, Box const* box = nullptr,
+                           int threads = 1);
 
 /// Sum m v_a v_b, an energy: not per volume. In a box that is sheared, velocities are those relative to its flow.
 Tensor3 kinetic_stress(Ensembles of, Box const* box = nullptr, int threads = 1);

@@ -13,6 +13,8 @@
 namespace boltzmann {
 namespace {
 
+constexpr double no_freedom = 1e-6;  // degrees of freedom, which come in whole numbers of molecules
+
 int offset_of_field(AnyEnsemble const& ensemble, char const* name) {
   Field const* field = ensemble.find_field(name);
   return field != nullptr && field->components == 1 ? field->offset : -1;
@@ -22,21 +24,25 @@ int offset_of_field(AnyEnsemble const& ensemble, char const* name) {
 
 // ---- Sums ----
 
-void MomentSums::add(std::span<Body const> bodies, int dimension) {
+void MomentSums::add(std::span<Body const> bodies, int dimension, KeptMomentum const& kept) {
   if (bodies.empty()) return;
-  std::array<ExactSum, 7> sums;  // mass, momentum, energies, inverse temperatures
+  std::array<ExactSum, 9> sums;  // mass, momentum, energies, inverse temperatures, mass that moves, degrees of freedom
   double with_temperature = 0;
-  add_terms(sums, bodies.size(), 1, [&](std::size_t i, std::array<double, 7>& terms) {
+  add_terms(sums, bodies.size(), 1, [&](std::size_t i, std::array<double, 9>& terms) {
     Body const& body = bodies[i];
     terms[0] = body.mass;
-    for (int a = 0; a < dimension; ++a) terms[1 + a] = body.mass * body.velocity[a];
+    if (body.freedom > 0) {
+      for (int a = 0; a < dimension; ++a) terms[1 + a] = body.mass * body.velocity[a];
+      terms[7] = body.mass;
+      terms[8] = body.freedom;
+    }
     terms[4] = body.internal_energy;
     terms[5] = body.potential;
     if (std::isnan(body.temperature)) return;
     with_temperature += 1;
     terms[6] = body.temperature > 0 ? 1 / body.temperature : unknown;
   });
-  double const mass = sums[0].value(), all = mass_ + mass;
+  double const mass = sums[7].value(), all = moving_mass_ + mass;
   std::array<double, 3> mean{}, change{};
   for (int a = 0; a < dimension; ++a) {
     mean[a] = mass > 0 ? sums[1 + a].value() / mass : 0;
@@ -45,15 +51,21 @@ void MomentSums::add(std::span<Body const> bodies, int dimension) {
   std::array<ExactSum, 9> squares;
   add_terms(squares, bodies.size(), 1, [&](std::size_t i, std::array<double, 9>& terms) {
     double const* const v = bodies[i].velocity;
+    if (!(bodies[i].freedom > 0)) return;
     for (int a = 0; a < dimension; ++a)
       for (int b = 0; b < dimension; ++b) terms[3 * a + b] = bodies[i].mass * ((v[a] - mean[a]) * (v[b] - mean[b]));
   });
   for (int a = 0; a < dimension; ++a)
     for (int b = 0; b < dimension; ++b)
-      squares_[a][b] += squares[3 * a + b].value() + (all > 0 ? change[a] * change[b] * (mass_ * (mass / all)) : 0.0);
+      squares_[a][b] +=
+          squares[3 * a + b].value() + (all > 0 ? change[a] * change[b] * (moving_mass_ * (mass / all)) : 0.0);
   for (int a = 0; a < dimension; ++a) mean_[a] += all > 0 ? change[a] * (mass / all) : 0.0;
   number_ += static_cast<double>(bodies.size());
-  mass_ = all;
+  mass_ += sums[0].value();
+  moving_mass_ = all;
+  freedom_ += sums[8].value() / dimension;
+  states_ += 1;
+  for (std::size_t a = 0; a < 3; ++a) share_[a] += kept.along[a] ? mass / kept.mass : 0;
   internal_ += sums[4].value();
   potential_ += sums[5].value();
   with_temperature_ += with_temperature;
@@ -79,16 +91,17 @@ MatterState MomentSums::matter(int dimension, double boltzmann_constant) const {
   matter.mass = mass_;
   matter.density = volume_ > 0 ? mass_ / volume_ : unknown;
   for (auto& row : matter.pressure) row.fill(0);
-  double thermal = 0, sum = 0;
+  double thermal = 0, left = 0;
   for (int a = 0; a < dimension; ++a) {
     matter.velocity[a] = number_ > 0 ? mean_[a] : unknown;
-    matter.kinetic_temperature[a] = number_ > 1 ? squares_[a][a] / ((number_ - 1) * boltzmann_constant) : unknown;
-    sum += matter.kinetic_temperature[a];
+    double const of_mean = states_ > 0 ? 1 - share_[a] / states_ : 0, freedom = freedom_ - share_[a] - of_mean;
+    matter.kinetic_temperature[a] = freedom > no_freedom ? squares_[a][a] / (freedom * boltzmann_constant) : unknown;
+    left += freedom;
     thermal += 0.5 * squares_[a][a];
     for (int b = 0; b < dimension; ++b)
       matter.pressure[a][b] = number_ > 0 && volume_ > 0 ? (squares_[a][b] + virial_[a][b]) / volume_ : unknown;
   }
-  matter.mean_kinetic_temperature = sum / dimension;
+  matter.mean_kinetic_temperature = left > no_freedom ? 2 * thermal / (left * boltzmann_constant) : unknown;
   matter.internal_temperature = with_temperature_ > 0 ? with_temperature_ / inverse_temperature_ : unknown;
   auto const per_mass = [&](double energy) { return number_ > 0 && mass_ > 0 ? energy / mass_ : unknown; };
   matter.internal_energy = per_mass(internal_);
@@ -102,7 +115,8 @@ std::vector<double> MomentSums::state() const {
   state.insert(state.end(), mean_.begin(), mean_.end());
   for (auto const* tensor : {&squares_, &virial_})
     for (auto const& row : *tensor) state.insert(state.end(), row.begin(), row.end());
-  state.insert(state.end(), {internal_, potential_, with_temperature_, inverse_temperature_});
+  state.insert(state.end(), {internal_, potential_, with_temperature_, inverse_temperature_, moving_mass_, freedom_,
+                             states_, share_[0], share_[1], share_[2]});
   return state;
 }
 
@@ -119,7 +133,8 @@ void MomentSums::restore(std::span<double const> state) {
   internal_ = *from++;
   potential_ = *from++;
   with_temperature_ = *from++;
-  inverse_temperature_ = *from;
+  for (double* x : {&inverse_temperature_, &moving_mass_, &freedom_, &states_, &share_[0], &share_[1], &share_[2]})
+    *x = *from++;
 }
 
 // ---- Particles ----
@@ -149,6 +164,13 @@ MassiveParticles::MassiveParticles(std::span<AnyEnsemble const* const> ensembles
   }
 }
 
+MassiveParticles::MassiveParticles(Sample const& sample, EnergyAndVirial const* measures,
+                                   std::vector<std::string> const& chosen)
+    : MassiveParticles(std::vector<AnyEnsemble const*>(sample.ensembles.begin(), sample.ensembles.end()), measures,
+                       chosen) {
+  kept_ = zero_momentum(sample.ensembles, sample.momentum_is_kept, &sample.box, sample.threads);
+}
+
 MomentSums::Body MassiveParticles::body(Source const& source, std::size_t i) {
   double const* row = source.ensemble->row(i);
   double const mass = row[source.mass];
@@ -159,7 +181,8 @@ MomentSums::Body MassiveParticles::body(Source const& source, std::size_t i) {
                                         : 0,
           source.potential != nullptr ? source.potential[i] : unknown,
           source.temperature >= 0 ? row[source.temperature] : unknown,
-          source.virial != nullptr ? source.virial + 9 * i : nullptr};
+          source.virial != nullptr ? source.virial + 9 * i : nullptr,
+          freedom_of(*source.ensemble, i)};
 }
 
 double cross_section(Box const& box, int axis) {
@@ -198,7 +221,8 @@ MatterState matter_between(MassiveParticles const& bodies, Box const& box, int a
                            double boltzmann_constant) {
   MomentSums sum;
   sum.add_volume(volume_between(box, axis, low, high));
-  sum.add(bodies.where([&](double const* x) { return x[axis] >= low && x[axis] < high; }), box.dimension());
+  sum.add(bodies.where([&](double const* x) { return x[axis] >= low && x[axis] < high; }), box.dimension(),
+          bodies.kept());
   return sum.matter(box.dimension(), boltzmann_constant);
 }
 
@@ -226,7 +250,7 @@ void ProfileSums::add(MassiveParticles const& bodies, Box const& box) {
     of_bin[std::min(bin, sums_.size() - 1)].push_back(body);
   });
   for (std::size_t b = 0; b < sums_.size(); ++b) {
-    sums_[b].add(of_bin[b], dimension_);
+    sums_[b].add(of_bin[b], dimension_, bodies.kept());
     sums_[b].add_volume(volume_between(box, axis_, left(b), b + 1 == sums_.size() ? high_ : left(b) + width_));
   }
 }

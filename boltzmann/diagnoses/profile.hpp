@@ -3,6 +3,7 @@
 #pragma once
 
 #include <boltzmann/core/dimension.hpp>
+#include <boltzmann/diagnoses/diagnosis.hpp>
 #include <boltzmann/diagnoses/measures.hpp>
 
 #include <array>
@@ -19,9 +20,9 @@ struct MatterState {
   std::size_t number = 0;
   double volume = 0, mass = 0;
   double density = 0;                   ///< mass / volume
-  Triple velocity{};                    ///< of the centre of mass
-  Triple kinetic_temperature{};         ///< T_a = sum m (v_a - <v_a>)^2 / ((N - 1) k) along each axis
-  double mean_kinetic_temperature = 0;  ///< their mean over the axes
+  Triple velocity{};                    ///< of the centre of mass of the particles that move; 0 if none moves
+  Triple kinetic_temperature{};         ///< T_a = sum m (v_a - <v_a>)^2 / (k f_a) along each axis, f_a: see MomentSums
+  double mean_kinetic_temperature = 0;  ///< sum m |v - <v>|^2 / (k f)
   double internal_temperature = 0;      ///< harmonic mean of the field "temperature", of classes that have it
   Tensor3 pressure{};                   ///< (sum m v' v' + virial) / volume, v' = v - <v>: the negative of the stress
   double internal_energy = 0;           ///< per mass: of what is inside the particles
@@ -31,7 +32,12 @@ struct MatterState {
 
 /// Sums over particles that become a MatterState, for any mean velocity. What is added at once is added exactly, in
 /// whatever order it stands (ExactSum); what was added before it joins by its number, mean and squares about the mean
-/// (T. F. Chan, G. H. Golub and R. J. LeVeque, Am. Stat. 37, 242 (1983)).
+/// (T. F. Chan, G. H. Golub and R. J. LeVeque, Am. Stat. 37, 242 (1983)). Particles at rest count for number, mass,
+/// energies and virial, not for velocity and temperature.
+///
+/// Degrees of freedom along an axis are those of the particles (particles/degrees_of_freedom.hpp), less what the mean
+/// velocity takes: 1, or 1 - M_b / M where a momentum of the system of mass M is kept and zero and M_b is the mass here,
+/// for then the mean velocity fluctuates so much less.
 class MomentSums {
  public:
   struct Body {
@@ -40,9 +46,10 @@ class MomentSums {
     double internal_energy, potential;  ///< NaN: unknown
     double temperature;                 ///< NaN: its class has none
     double const* virial;               ///< nine numbers (EnergyAndVirial::virial_per_particle); null: unknown
+    double freedom;                     ///< degrees of freedom in all directions (freedom_of()); 0: it is at rest
   };
-  /// Particles, in the simulation's units.
-  void add(std::span<Body const> bodies, int dimension);
+  /// Particles of one state, in the simulation's units. `kept`: zero_momentum() of the system.
+  void add(std::span<Body const> bodies, int dimension, KeptMomentum const& kept = {});
   void add_volume(double volume) { volume_ += volume; }
 
   std::size_t number() const { return static_cast<std::size_t>(number_); }
@@ -50,7 +57,7 @@ class MomentSums {
   MatterState matter(int dimension, double boltzmann_constant) const;
 
   /// The sums themselves, for checkpoints.
-  static constexpr std::size_t state_size = 28;
+  static constexpr std::size_t state_size = 34;
   std::vector<double> state() const;
   /// Takes state_size numbers.
   void restore(std::span<double const> state);
@@ -59,6 +66,8 @@ class MomentSums {
   void add_virial(std::span<Body const> bodies);
 
   double number_ = 0, mass_ = 0, volume_ = 0;
+  double moving_mass_ = 0, freedom_ = 0, states_ = 0;  // freedom: along each axis, of the particles
+  Triple share_{};                                     // of the kept momentum, that the particles have by their mass
   std::array<double, 3> mean_{};
   Tensor3 squares_{}, virial_{};
   double internal_ = 0, potential_ = 0, with_temperature_ = 0, inverse_temperature_ = 0;
@@ -72,7 +81,10 @@ class MassiveParticles {
   /// all.
   MassiveParticles(std::span<AnyEnsemble const* const> ensembles, EnergyAndVirial const* measures,
                    std::vector<std::string> const& chosen = {});
+  /// The same of all ensembles of a system: degrees of freedom are less by the momentum that it keeps.
+  MassiveParticles(Sample const& sample, EnergyAndVirial const* measures, std::vector<std::string> const& chosen = {});
 
+  KeptMomentum const& kept() const { return kept_; }
   struct Source {
     AnyEnsemble const* ensemble;
     int mass, velocity, temperature, internal_energy, specific_energy;  // offsets; -1: the class has none
@@ -100,6 +112,7 @@ class MassiveParticles {
 
  private:
   std::vector<Source> sources_;
+  KeptMomentum kept_;
 };
 
 /// The product of the box's lengths along all other axes: 1 in 1D.

@@ -242,14 +242,15 @@ void Shock::look(Sample const& sample, MassiveParticles const& bodies, double& f
   auto const add = [&](MomentSums& sum, double from, double to) {
     auto const [a, b] = std::minmax(from, to);
     sum.add_volume((b - a) * cross_section(box, axis));
-    sum.add(bodies.where([&, a = a, b = b](double const* x) { return x[axis] >= a && x[axis] < b; }), dimension_);
+    sum.add(bodies.where([&, a = a, b = b](double const* x) { return x[axis] >= a && x[axis] < b; }), dimension_,
+            bodies.kept());
   };
   add(behind_, front - direction * deep, front - direction * near());
   add(ahead_, front + direction * margin_, far_end - direction * margin_);
 }
 
 void Shock::measure(Sample const& sample, std::vector<double>& values) {
-  MassiveParticles const bodies(sample.ensembles, sample.measures, options_.ensembles);
+  MassiveParticles const bodies(sample, sample.measures, options_.ensembles);
   if (!begun_) begin(sample.box, bodies, sample.boltzmann_constant);
   double front = unknown;
   look(sample, bodies, front);

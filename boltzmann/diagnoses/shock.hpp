@@ -78,6 +78,7 @@ class Shock final : public Diagnosis {
   void check(std::span<AnyEnsemble const* const> ensembles, Box const& box, double boltzmann_constant) const;
 
   bool needs_energies() const override { return true; }
+  bool needs_kept_momentum() const override { return true; }
   std::vector<Column> columns() const override;
   /// Error at the first look if there are no particles, the axis is periodic, the matter is too short for the windows,
   /// or it can't be told which end drives: no wall runs into the matter by more than five standard errors of its mean

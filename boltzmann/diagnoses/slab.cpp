@@ -129,7 +129,7 @@ void Slab::measure(Sample const& sample, std::vector<double>& values) {
   if (sample.ensembles.size() != ensembles_)
     throw Error("a slab diagnosis was made for other ensembles than the simulation has");
   // Each by its number in the simulation; what carries no momentum has no members.
-  MassiveParticles const bodies(sample.ensembles, nullptr);
+  MassiveParticles const bodies(sample, nullptr);
   std::vector<MomentSums::Body> found;
   std::vector<double> position, mass;
   for (auto const& slab : members_) {
@@ -149,7 +149,7 @@ void Slab::measure(Sample const& sample, std::vector<double>& values) {
       }
     }
     MomentSums sum;
-    sum.add(found, dimension_);
+    sum.add(found, dimension_, bodies.kept());
     Layer const layer = layer_of(position, mass, sample.box, options_.axis);
     sum.add_volume(layer.width * cross_section(sample.box, options_.axis));
     MatterState const matter = sum.matter(dimension_, sample.boltzmann_constant);

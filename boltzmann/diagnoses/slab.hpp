@@ -48,6 +48,7 @@ class Slab final : public Diagnosis {
   SlabOptions const& options() const { return options_; }
 
   std::vector<Column> columns() const override;
+  bool needs_kept_momentum() const override { return true; }
   /// Error at the first look as slab_members().
   void measure(Sample const& sample, std::vector<double>& values) override;
   bool by_number() const override { return true; }

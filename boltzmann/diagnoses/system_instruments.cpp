@@ -58,13 +58,14 @@ class AngularMomentum final : public SystemDiagnosis {
 class TemperatureDiagnosis final : public SystemDiagnosis {
  public:
   explicit TemperatureDiagnosis(DiagnosisParameters const& parameters)
-      : SystemDiagnosis(parameters), subtract_drift_(parameters.subtract_drift), rigid_bonds_(parameters.rigid_bonds) {
+      : SystemDiagnosis(parameters), subtract_drift_(parameters.subtract_drift) {
     for (auto const& name : parameters.ensembles)
       if (AnyEnsemble const& ensemble = ensemble_named(parameters.available, name); !carries_momentum(ensemble))
         throw Error(fmt::format("ensemble '{}' of class {} has no temperature: it needs a mass and a velocity", name,
                                 ensemble.class_name()));
   }
   bool sums() const override { return true; }
+  bool needs_kept_momentum() const override { return !subtract_drift_; }
   std::vector<Column> columns_of_one() const override {
     std::vector<Column> columns{{"temperature", dimensions::temperature}};
     if (dimension() > 1)
@@ -73,25 +74,18 @@ class TemperatureDiagnosis final : public SystemDiagnosis {
     return columns;
   }
   void measure_one(Ensembles of, Sample const& sample, std::vector<double>& values) override {
-    Temperature t = temperature(of, sample.boltzmann_constant,
-                                {.subtract_drift = subtract_drift_, .box = &sample.box, .threads = sample.threads});
-    double const lost = subtract_drift_ ? dimension() : 0;
-    double const all = dimension() * static_cast<double>(number_of_particles(of)) - lost;
-    // Each rigid bond takes a degree of freedom, alike of all axes.
-    double kept = 0;
-    for (auto const& [name, count] : rigid_bonds_)
-      for (auto const* ensemble : of) kept += ensemble->name() == name ? static_cast<double>(count) : 0;
-    if (kept > 0) {
-      t.total *= all / (all - kept);
-      for (double& component : t.component) component *= all / (all - kept);
-    }
+    Temperature const t = temperature(of, sample.boltzmann_constant,
+                                      {.subtract_drift = subtract_drift_,
+                                       .box = &sample.box,
+                                       .threads = sample.threads,
+                                       .system = sample.ensembles,
+                                       .momentum_is_kept = sample.momentum_is_kept});
     values.push_back(t.total);
     if (dimension() > 1) values.insert(values.end(), t.component.begin(), t.component.begin() + dimension());
   }
 
  private:
   bool subtract_drift_;
-  std::vector<std::pair<std::string, std::size_t>> rigid_bonds_;
 };
 
 /// Energies of the whole system; of named ensembles the kinetic energy besides.

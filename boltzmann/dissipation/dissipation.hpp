@@ -19,10 +19,9 @@ namespace boltzmann {
 
 /// What is around a dissipation in its simulation.
 struct Surroundings {
-  std::vector<AnyEnsemble const*> massive;    ///< all ensembles that carry momentum
+  std::vector<AnyEnsemble const*> massive;    ///< all ensembles that carry momentum and move
   std::array<bool, 3> momentum_is_kept = {};  ///< in total along this axis, by forces, walls and other dissipations
   bool equilibrates = false;                  ///< velocities are still to be brought to a temperature
-  std::vector<std::pair<AnyEnsemble const*, std::size_t>> rigid = {};  ///< who has how many rigid bonds
 };
 
 /// One part of a split equation of motion. After every step of the integrators (kick, drift, kick) a simulation lets
@@ -68,8 +67,8 @@ class Dissipation {
   /// What friction between pairs adds to EnergyAndVirial::virial, for velocities as they are; noise adds nothing in the
   /// mean.
   virtual std::array<std::array<double, 3>, 3> virial() { return {}; }
-  /// Distances that it keeps in its ensembles: each takes a degree of freedom.
-  virtual std::size_t rigid_bonds() const { return 0; }
+  /// Whether it leaves frozen particles of its ensembles alone, and acts on the others.
+  virtual bool spares_resting() const { return false; }
   /// What it is, for `bzm show`: its word in scenarios.
   virtual std::string kind() const { return "dissipation"; }
   /// What one should know before a run with such steps; warnings begin with "warning: ".

@@ -35,6 +35,7 @@ class HeatBath : public Dissipation {
   /// Error where a mass is not positive.
   void check() override;
   std::string undivided() const override { return ""; }
+  bool spares_resting() const override { return true; }
   void act_in_flow(Box const& box) override { flowing_ = &box; }
   double heat() const override { return heat_; }
   std::vector<double> state() const override { return {heat_}; }
@@ -54,11 +55,13 @@ class HeatBath : public Dissipation {
   };
 
   std::optional<Block> const& block() const { return block_; }
-  bool acts_on(double const* row, int dimension) const {
-    if (block_)
-      for (int a = 0; a < dimension; ++a)
-        if (!(row[a] >= block_->low[a] && row[a] <= block_->high[a])) return false;
-    return true;
+  /// Whether it acts on particle i of an ensemble: not if that rests, or is outside its block.
+  bool acts_on(AnyEnsemble const& ensemble, std::size_t i) const {
+    if (!block_) return ensemble.mobility.moves(i);
+    double const* const row = ensemble.row(i);
+    for (int a = 0; a < ensemble.dimension(); ++a)
+      if (!(row[a] >= block_->low[a] && row[a] <= block_->high[a])) return false;
+    return ensemble.mobility.moves(i);
   }
   double rate() const { return rate_; }
   double boltzmann_constant() const { return boltzmann_constant_; }

@@ -49,7 +49,7 @@ void LangevinBath::advance(StepContext const& context) {
                               draw(task);
                               for (std::size_t k = 0; k < task.count; ++k) {
                                 double* const row = ensemble.row(task.first + k);
-                                if (!acts_on(row, dimension)) continue;
+                                if (!acts_on(ensemble, task.first + k)) continue;
                                 double const m = row[mass], spread = std::sqrt(spread2 / m);
                                 double gained = 0;
                                 for (int a = 0; a < dimension; ++a) {

@@ -3,6 +3,7 @@
 #include <boltzmann/core/exact_sum.hpp>
 #include <boltzmann/core/threads.hpp>
 #include <boltzmann/dissipation/rescaling_bath.hpp>
+#include <boltzmann/particles/degrees_of_freedom.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -29,10 +30,8 @@ void RescalingBath::settle(Surroundings const& surroundings) {
     return std::find(own.begin(), own.end(), one) != own.end();
   });
   for (std::size_t a = 0; a < 3; ++a) kept_[a] = takes_all_ && surroundings.momentum_is_kept[a];
-  rigid_ = 0;
-  for (auto const& [ensemble, bonds] : surroundings.rigid)
-    if (std::find(own.begin(), own.end(), ensemble) != own.end()) rigid_ += bonds;
-  if (block() && rigid_ > 0)
+  bool const rigid = std::any_of(own.begin(), own.end(), [](auto const* one) { return !one->mobility.taken.empty(); });
+  if (block() && rigid)
     throw Error("the heat bath of '" + own.front()->name() +
                 "' scales velocities in a block, which would cut rigid bonds at its faces; let it act everywhere");
   if (block() || own.empty()) return;
@@ -54,6 +53,7 @@ RescalingBath::Motion RescalingBath::motion() const {
       int const mass = ensemble->field("mass").offset, velocity = ensemble->field("velocity").offset;
       add_terms_of(total, *ensemble, threads(), [&](std::size_t i, std::array<double, 4>& terms) {
         double const* const row = ensemble->row(i);
+        if (!ensemble->mobility.moves(i)) return;
         for (int a = 0; a < ensemble->dimension(); ++a) terms[a] = row[mass] * row[velocity + a];
         terms[3] = row[mass];
       });
@@ -62,33 +62,30 @@ RescalingBath::Motion RescalingBath::motion() const {
     for (std::size_t a = 0; a < 3; ++a)
       if (kept_[a]) all.common[a] = total[a].value() / total[3].value();
   }
-  std::array<ExactSum, 2> sums;  // kinetic energy, particles
+  std::array<ExactSum, 2> sums;  // kinetic energy, degrees of freedom
   for (auto const* ensemble : ensembles()) {
     int const mass = ensemble->field("mass").offset, velocity = ensemble->field("velocity").offset;
     add_terms_of(sums, *ensemble, threads(), [&](std::size_t i, std::array<double, 2>& terms) {
       double const* const row = ensemble->row(i);
-      if (!acts_on(row, ensemble->dimension())) return;
+      if (!acts_on(*ensemble, i)) return;
       double square = 0;
       for (int a = 0; a < ensemble->dimension(); ++a) {
         double const v = row[velocity + a] - all.common[a];
         square += v * v;
       }
       terms[0] = 0.5 * row[mass] * square;
-      terms[1] = 1;
+      terms[1] = freedom_of(*ensemble, i);
     });
   }
   if (division()) division()->sum(sums);
   all.kinetic = sums[0].value();
-  all.particles = sums[1].value();
+  all.freedom = sums[1].value();
   return all;
 }
 
 double RescalingBath::degrees(Motion const& motion) const {
   if (ensembles().empty()) return 0;
-  int const dimension = ensembles().front()->dimension();
-  double degrees = motion.particles * dimension - static_cast<double>(rigid_);
-  for (int a = 0; a < dimension; ++a) degrees -= kept_[a] ? 1 : 0;
-  return degrees;
+  return freedom_left(motion.freedom, ensembles().front()->dimension(), {kept_, 1}, 1);
 }
 
 double RescalingBath::degrees_of_freedom() const { return degrees(motion()); }
@@ -113,7 +110,7 @@ void RescalingBath::advance(StepContext const& context) {
               [&](std::size_t begin, std::size_t end) {
                 for (std::size_t i = begin; i < end; ++i) {
                   double* row = ensemble->row(i);
-                  if (!acts_on(row, dimension)) continue;
+                  if (!acts_on(*ensemble, i)) continue;
                   for (int a = 0; a < dimension; ++a) {
                     double& v = row[velocity + a];
                     v = now.common[a] + scale * (v - now.common[a]);

@@ -8,9 +8,9 @@
 
 namespace boltzmann {
 
-/// Where the total momentum along an axis is kept by everything else, and all particles with mass are in the bath, it is
-/// kept by the bath, too: velocities are those relative to the common one, and a degree of freedom less counts. So it
-/// does for each rigid bond.
+/// Degrees of freedom are those of particles/degrees_of_freedom.hpp. Where the total momentum along an axis is kept by
+/// everything else, and all particles with mass are in the bath, the bath keeps it, too: velocities are those relative to
+/// the common one, and one degree of freedom less counts.
 class RescalingBath : public HeatBath {
  public:
   using HeatBath::HeatBath;
@@ -31,14 +31,13 @@ class RescalingBath : public HeatBath {
 
  private:
   struct Motion {
-    double particles = 0, kinetic = 0;
-    std::array<double, 3> common{};  // the velocity that stays
+    double freedom = 0, kinetic = 0;  // freedom: before the kept momentum takes its part
+    std::array<double, 3> common{};   // the velocity that stays
   };
   Motion motion() const;
   double degrees(Motion const& motion) const;
 
   bool takes_all_ = false;
-  std::size_t rigid_ = 0;  // bonds of its particles
   std::array<bool, 3> kept_{};
 };
 

@@ -30,7 +30,6 @@ class RigidVelocities final : public Dissipation {
   }
   double heat() const override { return heat_; }
   bool keeps_momentum() const override { return true; }
-  std::size_t rigid_bonds() const override { return bonds_->size(); }
   std::string kind() const override { return "rigid bonds"; }
   std::vector<double> state() const override { return {heat_}; }
   void restore(std::span<double const> state) override;

@@ -4,6 +4,7 @@
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/particles/field.hpp>
 #include <boltzmann/particles/held_array.hpp>
+#include <boltzmann/particles/mobility.hpp>
 #include <boltzmann/particles/motion.hpp>
 #include <boltzmann/particles/rows.hpp>
 #include <boltzmann/particles/share.hpp>
@@ -103,6 +104,7 @@ class AnyEnsemble {
   std::shared_ptr<void const> hold_influences() const { return influence_.hold(); }
 
   Appearance appearance;
+  Mobility mobility;
 
  protected:
   AnyEnsemble(std::string name, std::string class_name, std::type_info const& moves_as, int dimension,

@@ -46,7 +46,9 @@ Canvas draw_profiles(Scene& scene) {
   int const D = scene.box().dimension(), a = profile_axis(scene.picture, D);
   EnergyAndVirial const measures = scene.context.simulation.measure();
   double const k = scene.context.units.is_reduced() ? 1 : scene.context.units(constants::boltzmann);
-  MassiveParticles const bodies(scene.ensembles, &measures);
+  Sample seen{scene.ensembles, scene.box(), &measures, k, scene.context.simulation.time(), 0};
+  seen.momentum_is_kept = scene.context.simulation.momentum_is_kept();
+  MassiveParticles const bodies(seen, &measures);
   std::size_t number = 0;
   for (auto const& source : bodies.sources()) number += source.ensemble->size();
   if (number == 0) return scene.too_few("a profile needs particles with a mass and a velocity");

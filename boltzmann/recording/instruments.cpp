@@ -94,10 +94,11 @@ void Instruments::follow() const {
 }
 
 std::vector<double> Instruments::measure() const {
-  bool energies = false, mesh = false;
+  bool energies = false, mesh = false, kept = false;
   for (auto const& diagnosis : list_) {
     energies = energies || diagnosis->needs_energies() || diagnosis->needs_virial();
     mesh = mesh || diagnosis->needs_mesh();
+    kept = kept || diagnosis->needs_kept_momentum();
   }
   EnergyAndVirial measures;
   if (energies) measures = simulation_.measure();
@@ -106,6 +107,7 @@ std::vector<double> Instruments::measure() const {
   Sample seen = sample(ensembles);
   if (energies) seen.measures = &measures;
   seen.mesh_fields = on_nodes;
+  if (kept) seen.momentum_is_kept = simulation_.momentum_is_kept();
   std::vector<double> values{simulation_.time()};
   for (auto const& diagnosis : list_) diagnosis->measure(seen, values);
   return values;

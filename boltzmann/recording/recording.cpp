@@ -93,7 +93,6 @@ struct Recording::State {
     auto const all = ensembles();
     parameters.available.assign(all.begin(), all.end());
     parameters.columns_before = rows.instruments().columns();
-    find_rigid_bonds(parameters, simulation.schemes());
     for (auto const& known : diagnosis_kinds()) {
       if (known.name != kind) continue;
       if (known.of_mesh) parameters.mesh_fields = mesh_fields_of(simulation.schemes());

@@ -25,6 +25,7 @@ class Frozen final : public Integrator {
   void prepare(FixedPoint const& grid) override { inner_->prepare(grid); }
   bool same_for_all() const override { return false; }
   std::span<std::uint32_t const> resting() const override { return which_; }
+  std::span<double const> taken_freedom() const override { return inner_->taken_freedom(); }
   std::vector<Carried> carried() override { return inner_->carried(); }
   std::string undivided() const override { return inner_->undivided(); }
   void divide(Division* division) override { inner_->divide(division); }

@@ -43,8 +43,9 @@ struct Dissipations {
   std::vector<DissipatingPair> dissipations, baths;
 };
 
-/// Whether friction and noise can act on an ensemble; a mistake if not.
-bool supports(ReadEnsemble const& ensemble, Place const& place, std::string_view key, Reading& reading) {
+/// Whether friction and noise can act on an ensemble; a mistake if not. Heat baths spare frozen particles.
+bool supports(ReadEnsemble const& ensemble, Place const& place, std::string_view key, Reading& reading,
+              bool spares_frozen = false) {
   AnyEnsemble const* particles = ensemble.particles;
   if (!particles || !ensemble.integrator) return false;
   auto const refuse = [&](std::string const& why) {
@@ -58,8 +59,8 @@ bool supports(ReadEnsemble const& ensemble, Place const& place, std::string_view
   if (ensemble.integrator->method() != Method::leap_frog)
     return refuse(
         fmt::format("they need integrator = \"leap-frog\", not \"{}\"", to_string(ensemble.integrator->method())));
-  if (!ensemble.integrator->same_for_all())
-    return refuse("some of its particles are frozen; put these into an ensemble of their own");
+  if (!spares_frozen && !ensemble.integrator->same_for_all())
+    return refuse("some of its particles are frozen; put these into an ensemble of their own, or use a heat bath");
   return true;
 }
 
@@ -368,7 +369,7 @@ void read_heat_bath(Section& section, DissipationKind const& kind, Dissipations&
   section.finish();
   if (reading.context.mistakes.count() != before || !read) return;
   for (auto const& [ensemble, place] : ensembles) {
-    if (!supports(*ensemble, place, "on", reading)) return;
+    if (!supports(*ensemble, place, "on", reading, true)) return;
     if (!read->options.low && taken(all.baths, ensemble, ensemble, place, kind.name, reading)) return;
   }
   catch_errors(reading, on->place, [&] {
@@ -406,12 +407,13 @@ std::vector<ReadEnsemble const*> to_be_equilibrated(Item const* on, Reading& rea
   if (!on) {
     for (auto const& ensemble : reading.ensembles)
       if (ensemble.particles && !ensemble.smooth() && ensemble.integrator && carries_momentum(*ensemble.particles) &&
-          ensemble.integrator->method() == Method::leap_frog && ensemble.integrator->same_for_all())
+          ensemble.integrator->method() == Method::leap_frog)
         chosen.push_back(&ensemble);
     return chosen;
   }
   for (auto const& [ensemble, place] : named_ensembles(on, "on", reading))
-    if (supports(*ensemble, place, "on", reading) && std::find(chosen.begin(), chosen.end(), ensemble) == chosen.end())
+    if (supports(*ensemble, place, "on", reading, true) &&
+        std::find(chosen.begin(), chosen.end(), ensemble) == chosen.end())
       chosen.push_back(ensemble);
   return chosen;
 }

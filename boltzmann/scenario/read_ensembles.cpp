@@ -226,6 +226,13 @@ class EnsembleReader {
     if (options_.temperature) options_.thermal.temperature = *options_.temperature;
     options_.thermal.boltzmann_constant = reading_.boltzmann_constant();
     options_.thermal.seed = reading_.run.seed;
+    if (options_.temperature && !ripple_ && (options_.thermal.remove_drift || options_.thermal.exact_temperature))
+      ensemble_.velocities = ReadVelocities{*options_.temperature,
+                                            options_.thermal.remove_drift,
+                                            options_.thermal.exact_temperature,
+                                            options_.thermal.drift,
+                                            {},
+                                            section_.place("temperature")};
     if (options_.temperature &&
         !catch_errors(reading_, section_.place("temperature"), [&] { maxwellian_load(*particles_, options_.thermal); }))
       return false;
@@ -255,6 +262,10 @@ class EnsembleReader {
     auto const formulas = read_formulas(set, given, true, unknown_fields(section_, *kind_), reading_);
     set.finish();
     if (!particles_ || !which || !right()) return;
+    auto const is_velocity = [](auto const& one) { return one.field.name == "velocity"; };
+    if (ensemble_.velocities && (std::any_of(values.begin(), values.end(), is_velocity) ||
+                                 std::any_of(formulas.begin(), formulas.end(), is_velocity)))
+      ensemble_.velocities->given.insert(ensemble_.velocities->given.end(), which->begin(), which->end());
     for (auto const& value : values) apply(value, *particles_, *which);
     for (auto const& formula : formulas)
       if (!apply(formula, *particles_, *which, reading_)) break;

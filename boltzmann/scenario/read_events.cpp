@@ -198,6 +198,7 @@ void read_event(Item const& table, std::size_t number, Reading& reading) {
     if (!moves && section.has(key) && !(add && std::string_view(key) == "on"))
       reading.mistake(section.place(key),
                       fmt::format("{}: it belongs to what changes velocities: temperature, scale or kick", key));
+  if (!options.temperature) section.refuse("subtract_drift", "it belongs to 'temperature', which is missing");
   if (!moves && !add && !section.has("set") && reading.context.mistakes.count() == before)
     reading.mistake(table.place, "[[events]]: nothing happens; add 'set', 'add', 'temperature', 'scale' or 'kick'");
   section.finish();
@@ -217,7 +218,10 @@ void read_event(Item const& table, std::size_t number, Reading& reading) {
     if (moves)
       reading.events.push_back({at, passing, [=, k = reading.boltzmann_constant()](Simulation& simulation) {
                                   auto const who = who_is_moved(moved, simulation.time());
-                                  if (options.temperature) scale_to_temperature(who, *options.temperature, k);
+                                  if (options.temperature)
+                                    scale_to_temperature(who, *options.temperature, k,
+                                                         options.subtract_drift ? std::array{true, true, true}
+                                                                                : simulation.momentum_is_kept());
                                   if (options.scale) scale_velocities(who, *options.scale);
                                   if (options.kick) kick(who, *options.kick);
                                 }});

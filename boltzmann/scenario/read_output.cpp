@@ -149,7 +149,6 @@ std::unique_ptr<Diagnosis> make_checked(DiagnosisKind const& kind, DiagnosisPara
   std::vector<Scheme*> schemes;
   for (auto const& scheme : reading.result->schemes) schemes.push_back(scheme.get());
   if (kind.of_flow) find_vortices(parameters, schemes);
-  find_rigid_bonds(parameters, schemes);
   parameters.columns_before = columns_of(*reading.result);
   auto diagnosis = make_diagnosis(kind.name, parameters);
   if (reading.box && reading.shear_is_right) diagnosis->check(*reading.box);

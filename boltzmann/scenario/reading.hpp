@@ -57,6 +57,15 @@ struct ReadMolecules {
   std::vector<BondMembers> bonds = {};
 };
 
+/// What [[ensembles]] says of thermal velocities that hold for the simulation as a whole (settle_velocities()).
+struct ReadVelocities {
+  double temperature = 0;
+  bool remove_drift = false, exact = false;
+  std::array<double, 3> drift{};
+  std::vector<std::uint32_t> given = {};  ///< particles whose velocities are said
+  Place place;
+};
+
 /// An ensemble of the file; `particles` is null if it could not be loaded.
 struct ReadEnsemble {
   std::string name;
@@ -68,6 +77,7 @@ struct ReadEnsemble {
   std::optional<BoundMaterial> material;  ///< of smooth particles
   std::optional<StateLaw> state;          ///< of internal energies
   ReadMolecules molecules = {};
+  std::optional<ReadVelocities> velocities = {};
 
   bool smooth() const { return kind && kind->matter != Matter::none; }
 };
@@ -249,6 +259,9 @@ std::optional<LaplaceLaw> read_field_law(Section& section, OptionTable const& ke
 /// The keys that this leaves.
 OptionTable keys_but_of_the_law(OptionTable const& all);
 void read_ensembles(Section& document, Reading& reading);
+/// Makes remove_drift and exact_temperature hold for the particles that move, with the degrees of freedom that they have
+/// in the simulation: frozen particles and rigid bonds have taken their part since the velocities were drawn.
+void settle_velocities(Reading& reading);
 /// Particles for an ensemble that there is, made as `table` says (the key `add` of an event), and where it says nothing as
 /// the ensemble's own does. Random numbers are those of an ensemble of this `name`. Null, and mistakes, if it is wrong.
 std::shared_ptr<AnyEnsemble const> read_addition(Item const& table, ReadEnsemble const& to, std::string const& name,

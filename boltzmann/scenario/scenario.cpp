@@ -120,6 +120,7 @@ void build(Item& document, Reading& reading) {
   if (!reading.result->simulation) return;
   complete_simulation(reading);
   check_simulation(reading);
+  if (reading.context.mistakes.none()) settle_velocities(reading);
 }
 
 /// Of [run] steps and time, which say the same: what the command line says goes before what the file says.

@@ -197,8 +197,10 @@ OptionTable make_ensemble_options() {  // long: a table, a row for each key
           "velocities from Maxwell's distribution", "none");
   all.add("drift", &E::drift, vector(dimensions::velocity), "a common velocity, added to these", "none");
   all.add("remove_drift", &E::thermal, &MaxwellianOptions::remove_drift, flag(), "takes the mean off first");
-  all.add("exact_temperature", &E::thermal, &MaxwellianOptions::exact_temperature, flag(),
-          "scales them so that the measured temperature is the wanted one");
+  all.add(
+      "exact_temperature", &E::thermal, &MaxwellianOptions::exact_temperature, flag(),
+      "scales them so that the measured temperature is the wanted one, of the particles that move and the degrees of "
+      "freedom that rigid bonds leave them");
   all.add("quiet", &E::thermal, &MaxwellianOptions::quiet, flag(),
           "puts them at the quantiles of the distribution, so that noise is far lower than that of random ones");
   all.add_said("velocity_ripple",
@@ -366,7 +368,7 @@ OptionTable make_rigid_bond_options() {
                "`\"bonds\"`");
   all.add("length", &R::length, number(dimensions::length, positive), "of all of them");
   all.add("tolerance", &R::tolerance, number(dimensions::none, {1e-14, 0.1}),
-          "how exactly they keep it, in parts of the length");
+          "how exactly they keep it, in parts of the length; rigid bodies keep it to rounding");
   all.at("on").needed = "\"water\"";
   all.at("length").needed = "\"1 angstrom\"";
   return all;
@@ -413,7 +415,7 @@ OptionTable make_set_options() {
   all.add_said("where", text("a [formula](#formulas)"), "those for which it is true: `\"x < 0.1 && mass > 1\"`",
                "`particles` or `where`");
   all.add_said("formulas", "a table of [formulas](#formulas)", "fields that depend on the place", "none");
-  all.add("freeze", &SetOptions::freeze, flag(), "they stay where they are");
+  all.add("freeze", &SetOptions::freeze, flag(), "they stay where they are, and have no temperature");
   return all;
 }
 
@@ -460,7 +462,9 @@ OptionTable make_event_options() {
                "all that have velocities");
   all.add_said("where", text("a [formula](#formulas)"), "of those the ones for which it is true then", "all");
   all.add("temperature", &E::temperature, number(dimensions::temperature, not_negative),
-          "velocities, relative to their common one, are scaled to it: a quench");
+          "velocities are scaled to it: a quench. A total momentum that the system keeps stays as it is");
+  all.add("subtract_drift", &E::subtract_drift, flag(),
+          "with `temperature`: velocities are those relative to the common one, which stays, in any case");
   all.add("scale", &E::scale, number(dimensions::none), "velocities are multiplied by it");
   all.add("kick", &E::kick, vector(dimensions::velocity), "a velocity that is added");
   all.at("at").needed = "\"5 ps\"";

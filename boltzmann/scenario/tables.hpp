@@ -110,6 +110,7 @@ struct EventOptions {
   std::int64_t times = 1;
   std::optional<double> temperature, scale;
   std::optional<std::array<double, 3>> kick;
+  bool subtract_drift = false;
 };
 OptionTable const& event_options();
 

@@ -152,7 +152,7 @@ void Simulation::keep_in_box(Part& part) {
 }
 
 StretchedSystem Simulation::stretched_system() {
-  return {schemes_, ensembles_, momentum_is_kept_, [this] { return measure(); },
+  return {schemes_, ensembles_, momentum_is_kept(), [this] { return measure(); },
           [this](double time) {
             add_all_influences(time, 0);
             if (is_divided()) division_->gather_influences();

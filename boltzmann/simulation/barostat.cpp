@@ -259,11 +259,12 @@ double Barostat::push(StretchedSystem const& system, std::vector<int> const& axe
     piston_rate_ *= chain_.advance(0.5 * piston_mass_ * square(piston_rate_), 1, kT, options_.rate, 0.5 * duration);
   };
   bool const rigid = !rigid_bonds(system).empty();
-  double kept = 0, degrees = 0;
+  double kept = 0, freedom = 0;  // of bodies, which go with the box
   for (int const a : axes) kept += system.momentum_is_kept[static_cast<std::size_t>(a)] ? 1 : 0;
   for (auto* ensemble : system.ensembles)
-    Bodies(system, *ensemble).each([&](auto const&, auto const&, auto const&) { degrees += dimension; });
-  double const part = (kept + dimension) / (degrees - kept);
+    Bodies(system, *ensemble).each([&](auto const&, auto const&, auto const&) { freedom += dimension; });
+  double const part =
+      (kept + dimension) / freedom_left(freedom, static_cast<int>(axes.size()), {system.momentum_is_kept, 1}, 1);
   auto const go = [&] {
     double const way = 0.5 * duration * piston_rate_;
     if (!(std::abs(way) < max_way_of_piston))

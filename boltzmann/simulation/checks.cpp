@@ -29,6 +29,7 @@ void Simulation::make_ready() {
   small_system_ = {};
   whole_ = {};
   division_.reset();
+  momentum_is_kept_.reset();
   move_walls(time());
   accept_particles();
   ensembles_ = supervised_by(schemes_);
@@ -110,9 +111,24 @@ Simulation::Part const& Simulation::ready_part(AnyEnsemble& ensemble) {
   part->stages = part->integrator->stages();
   part->time_after.clear();
   for (int k = 0; k < part->stages; ++k) part->time_after.push_back(part->integrator->time_after(k));
+  set_mobility(*part);
   part->home = *std::find_if(schemes_.begin(), schemes_.end(),
                              [&](Scheme const* scheme) { return scheme->supervises(ensemble); });
   return *part;
+}
+
+/// What its integrator leaves at rest, and what rigid bonds take.
+void Simulation::set_mobility(Part const& part) {
+  Mobility mobility;
+  mobility.all_rest = part.integrator->method() == Method::deactivate;
+  auto const resting = part.integrator->resting();
+  if (!resting.empty()) mobility.rests.assign(part.ensemble->size(), 0);
+  for (auto const i : resting)
+    if (i < mobility.rests.size()) mobility.rests[i] = 1;
+  auto const taken = part.integrator->taken_freedom();
+  mobility.taken.assign(taken.begin(), taken.end());
+  mobility.taken.resize(taken.empty() ? 0 : part.ensemble->size(), 0.0);
+  part.ensemble->mobility = std::move(mobility);
 }
 
 /// Those that advance all ensembles together don't mix with others.
@@ -221,7 +237,7 @@ void Simulation::check_dissipations() {
       if (!part)
         throw Error("friction and noise act on ensemble '" + ensemble->name() +
                     "', which no scheme of the simulation supervises");
-      bool const all = part->integrator->same_for_all();
+      bool const all = part->integrator->same_for_all() || dissipation->spares_resting();
       if (part->integrator->method() != Method::leap_frog || !all)
         throw Error("friction and noise act on ensemble '" + ensemble->name() +
                     "', which needs leap-frog for all its particles then, not " +
@@ -231,10 +247,13 @@ void Simulation::check_dissipations() {
   }
 }
 
-/// Along which axes the total momentum of all particles with mass is kept, as far as is known.
-std::array<bool, 3> Simulation::kept_momentum() const {
-  std::array<bool, 3> kept{};
-  if (!changes_.empty() || !measure().reciprocal) return kept;
+std::array<bool, 3> Simulation::momentum_is_kept() const {
+  if (momentum_is_kept_) return *momentum_is_kept_;
+  std::array<bool, 3>& kept = momentum_is_kept_.emplace();
+  if (!changes_.empty()) return kept;
+  for (auto const* ensemble : ensembles_)
+    if (!ensemble->mobility.all_move()) return kept;  // it takes up momentum
+  if (!measure().reciprocal) return kept;
   if (!std::all_of(dissipations_.begin(), dissipations_.end(), [](auto const* one) { return one->keeps_momentum(); }))
     return kept;
   Box const& box = schemes_.front()->box();
@@ -252,13 +271,9 @@ void Simulation::settle_dissipations() {
   Surroundings around;
   around.equilibrates = equilibrates();
   for (auto const* ensemble : ensembles_)
-    if (carries_momentum(*ensemble) && method(*ensemble) != Method::deactivate) around.massive.push_back(ensemble);
-  for (auto const* dissipation : all)
-    if (dissipation->rigid_bonds() > 0)
-      for (auto const* ensemble : dissipation->ensembles())
-        around.rigid.emplace_back(ensemble, dissipation->rigid_bonds());
+    if (carries_momentum(*ensemble) && !ensemble->mobility.all_rest) around.massive.push_back(ensemble);
   for (auto* dissipation : all) dissipation->settle(around);
-  around.momentum_is_kept = momentum_is_kept_ = kept_momentum();
+  around.momentum_is_kept = momentum_is_kept();
   for (auto* dissipation : all) dissipation->settle(around);
 }
 
@@ -273,13 +288,17 @@ void Simulation::check_barostats() {
           fmt::format("barostat: ensemble '{}' needs leap-frog for all its particles, not {}", ensemble->name(),
                       part.integrator->same_for_all() ? to_string(part.integrator->method()) : "some that are frozen"));
   }
-  std::size_t known = 0, kept = 0;  // rigid bonds, by schemes and behind baths
-  for (auto const* scheme : schemes_)
-    if (auto const* molecules = dynamic_cast<MoleculeScheme const*>(scheme))
-      for (auto const& rigid : molecules->rigid_bonds()) known += rigid->size();
-  for (auto const* dissipation : dissipations_) kept += dissipation->rigid_bonds();
-  if (kept > known)
-    throw Error("barostat: rigid bonds of which no scheme knows would be stretched; MoleculeScheme::keeps() tells one");
+  auto const known = [&](AnyEnsemble const* ensemble) {
+    for (auto const* scheme : schemes_)
+      if (auto const* molecules = dynamic_cast<MoleculeScheme const*>(scheme))
+        for (auto const& rigid : molecules->rigid_bonds())
+          if (&rigid->ensemble() == ensemble) return true;
+    return false;
+  };
+  for (auto const* ensemble : ensembles_)
+    if (!ensemble->mobility.taken.empty() && !known(ensemble))
+      throw Error(
+          "barostat: rigid bonds of which no scheme knows would be stretched; MoleculeScheme::keeps() tells one");
   for (auto const& barostat : barostats_) barostat->check(stretched_system());
 }
 

@@ -24,6 +24,7 @@ void add_scales(AnyEnsemble const& ensemble, Conserved& total) {
   ExactSum momenta, angular_momenta;
   for (std::size_t i = 0; i < ensemble.size(); ++i) {
     double const* row = ensemble.row(i);
+    if (!ensemble.mobility.moves(i)) continue;
     std::array<double, 3> r{}, v{};
     for (int a = 0; a < D; ++a) r[a] = row[a], v[a] = row[velocity + a];
     momenta += row[mass] * magnitude(v);
@@ -71,6 +72,7 @@ Conserved conserved(Simulation const& simulation) {
   for (auto const* dissipation : simulation.dissipations())
     total.isolated = total.isolated && dissipation->keeps_momentum();
   for (auto const* ensemble : ensembles) {
+    total.isolated = total.isolated && ensemble->mobility.all_move();  // what rests takes up momentum
     if (!carries_momentum(*ensemble)) {
       massive = false;
       total.no_energy =

@@ -1,11 +1,13 @@
 // What takes part in a simulation, its loop, and its state.
 #include <boltzmann/core/exact_sum.hpp>
 #include <boltzmann/core/team.hpp>
+#include <boltzmann/diagnoses/measures.hpp>
 #include <boltzmann/schemes/after_others.hpp>
 #include <boltzmann/simulation/conserved.hpp>
 #include <boltzmann/simulation/keeps_numbers.hpp>
 #include <boltzmann/simulation/run_votes.hpp>
 #include <boltzmann/simulation/simulation.hpp>
+#include <boltzmann/simulation/velocity_changes.hpp>
 
 #include <fmt/format.h>
 
@@ -19,27 +21,15 @@ namespace {
 
 constexpr std::uint32_t first_equilibration = 128;  // its number as a dissipation
 
-/// Takes off the velocity of the centre of mass, and returns it.
-std::array<double, 3> come_to_rest(AnyEnsemble& ensemble) {
-  std::array<double, 3> drift{};
-  int const mass = ensemble.field("mass").offset, velocity = ensemble.field("velocity").offset;
-  for (int a = 0; a < ensemble.dimension(); ++a) {
-    ExactSum total, momentum;
-    for (std::size_t i = 0; i < ensemble.size(); ++i) {
-      double const* row = ensemble.row(i);
-      total += row[mass];
-      momentum += row[mass] * row[velocity + a];
-    }
-    if (total.value() > 0) drift[a] = momentum.value() / total.value();
-    for (std::size_t i = 0; i < ensemble.size(); ++i) ensemble.row(i)[velocity + a] -= drift[a];
-  }
-  return drift;
+void set_moving(AnyEnsemble& ensemble, std::array<double, 3> const& drift) {
+  kick({{&ensemble, all_particles(ensemble)}}, drift);
 }
 
-void set_moving(AnyEnsemble& ensemble, std::array<double, 3> const& drift) {
-  int const velocity = ensemble.field("velocity").offset;
-  for (std::size_t i = 0; i < ensemble.size(); ++i)
-    for (int a = 0; a < ensemble.dimension(); ++a) ensemble.row(i)[velocity + a] += drift[a];
+/// Takes off the velocity of the centre of mass of the particles that move, and returns it.
+std::array<double, 3> come_to_rest(AnyEnsemble& ensemble) {
+  auto const drift = common_velocity({{&ensemble, all_particles(ensemble)}});
+  set_moving(ensemble, {-drift[0], -drift[1], -drift[2]});
+  return drift;
 }
 
 /// Whole steps hold particles of their own: in a divided run those of this rank, and only in that division.
@@ -326,6 +316,7 @@ void Simulation::happen_now() {
         add_now(happen);
       } else {
         happen();
+        if (!events_[k].lasting) settle_velocities();
         if (sizes() != before)
           throw Error("an event that adds particles is told by add_particles() (C++), and none takes them away");
       }
@@ -340,6 +331,11 @@ void Simulation::happen_now() {
   influences_.particles_changed();
   take_particles();
   divide();
+}
+
+/// Rigid bonds take back what else has changed of velocities along them.
+void Simulation::settle_velocities() {
+  for (auto const& part : parts_) part.integrator->settle_velocities();
 }
 
 /// What it does to the energy, as far as that is known, is work.
@@ -399,6 +395,7 @@ void Simulation::equilibrate_now() {
     for (std::uint64_t n = 0; n < steps; ++n) {
       try {
         advance(step_size_, {dissipation.get()});
+        settle_velocities();
       } catch (PhysicsFailure const& failure) {
         throw PhysicsFailure(fmt::format("step {} of the equilibration: {}", n + 1, failure.what()));
       }

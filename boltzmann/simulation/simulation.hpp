@@ -174,6 +174,9 @@ class Simulation {
   void divide_from(std::size_t particles) { divided_from_ = particles; }
   /// Energies and virial of the present state, over all schemes and dissipations. In an observer for all ranks of a team.
   EnergyAndVirial measure() const;
+  /// Along which axes the total momentum of all particles with mass is kept, as far as is known: by influences, walls,
+  /// baths, and because nothing rests. After check(); in an observer for all ranks of a team.
+  std::array<bool, 3> momentum_is_kept() const;
 
   /// What, besides the particles, determines the bits of the next step.
   std::vector<double> state() const;
@@ -299,13 +302,14 @@ class Simulation {
   std::size_t first_event(std::int64_t step) const;
   void happen_now();
   void add_now(std::function<void()> const& add);
-  std::array<bool, 3> kept_momentum() const;
+  void set_mobility(Part const& part);
   StretchedSystem stretched_system();
   void stretch_box(double dt);
   bool observation_due() const;
   bool change_due() const;
   void observe_now() const;
   void drop_forgotten();
+  void settle_velocities();
   void equilibrate_now();
 
   std::vector<Scheme*> schemes_;
@@ -319,8 +323,8 @@ class Simulation {
   std::deque<Progress> progress_;
   std::uint64_t attendants_ = 0;
   std::vector<std::unique_ptr<Barostat>> barostats_;
-  std::array<bool, 3> momentum_is_kept_{};
-  std::vector<Event> events_;  // by their steps
+  mutable std::optional<std::array<bool, 3>> momentum_is_kept_;  // once it was asked for
+  std::vector<Event> events_;                                    // by their steps
   std::vector<Equilibration> equilibrations_;
   std::optional<MinimiseOptions> minimisation_;
   std::optional<Minimised> minimised_;

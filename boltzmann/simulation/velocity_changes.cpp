@@ -10,7 +10,7 @@
 namespace boltzmann {
 namespace {
 
-/// Calls function(velocity, mass, dimension) for each; a class without mass has 0.
+/// Calls function(velocity, mass, dimension) for each that moves; a class without mass has 0.
 template <class Function>
 void each_velocity(std::vector<ChosenParticles> const& of, Function const& function) {
   for (auto const& [ensemble, which] : of) {
@@ -18,7 +18,7 @@ void each_velocity(std::vector<ChosenParticles> const& of, Function const& funct
     Field const* mass = ensemble->find_field("mass");
     for (auto const i : which) {
       double* row = ensemble->row(i);
-      function(row + velocity, mass ? row[mass->offset] : 0, ensemble->dimension());
+      if (ensemble->mobility.moves(i)) function(row + velocity, mass ? row[mass->offset] : 0, ensemble->dimension());
     }
   }
 }
@@ -37,29 +37,46 @@ void kick(std::vector<ChosenParticles> const& of, std::array<double, 3> const& v
   });
 }
 
-void scale_to_temperature(std::vector<ChosenParticles> const& of, double temperature, double boltzmann_constant) {
+std::array<double, 3> common_velocity(std::vector<ChosenParticles> const& of) {
+  std::array<ExactSum, 3> momentum;
+  ExactSum mass;
+  each_velocity(of, [&](double const* v, double m, int D) {
+    for (int a = 0; a < D; ++a) momentum[a] += m * v[a];
+    mass += m;
+  });
+  std::array<double, 3> common{};
+  if (mass.value() > 0)
+    for (std::size_t a = 0; a < 3; ++a) common[a] = momentum[a].value() / mass.value();
+  return common;
+}
+
+void scale_to_temperature(std::vector<ChosenParticles> const& of, double temperature, double boltzmann_constant,
+                          std::array<bool, 3> const& common_stays) {
   if (!(temperature >= 0) || !std::isfinite(temperature))
     throw Error(fmt::format("velocities are scaled to a temperature of zero or more, not {}", temperature));
-  std::array<double, 3> common{};
-  std::array<ExactSum, 3> momentum;
-  ExactSum total, twice_kinetic;
-  double particles = 0;
+  std::size_t particles = 0;
   int dimension = 1;
-  each_velocity(of, [&](double const* v, double mass, int D) {
+  each_velocity(of, [&](double const*, double mass, int D) {
     if (!(mass > 0)) throw Error("velocities are scaled to a temperature where all masses are positive");
-    for (int a = 0; a < D; ++a) momentum[a] += mass * v[a];
-    total += mass;
     particles += 1;
     dimension = D;
   });
   if (particles == 0) return;
-  for (std::size_t a = 0; a < 3; ++a) common[a] = particles > 1 ? momentum[a].value() / total.value() : 0;
+  double freedom = 0;
+  for (auto const& one : of) freedom += freedom_of(one);
+  auto common = common_velocity(of);
+  KeptMomentum stays{{}, 1};
+  for (std::size_t a = 0; a < 3; ++a) {
+    stays.along[a] = particles > 1 && common_stays[a];
+    if (!stays.along[a]) common[a] = 0;
+  }
+  ExactSum twice_kinetic;
   each_velocity(of, [&](double const* v, double mass, int D) {
     for (int a = 0; a < D; ++a) twice_kinetic += mass * (v[a] - common[a]) * (v[a] - common[a]);
   });
-  double const wanted = dimension * (particles > 1 ? particles - 1 : 1) * boltzmann_constant * temperature;
+  double const wanted = freedom_left(freedom, dimension, stays, 1) * boltzmann_constant * temperature;
   if (!(twice_kinetic.value() > 0) && wanted > 0)
-    throw Error("velocities can't be scaled to a temperature: nobody moves against the others");
+    throw Error("velocities can't be scaled to a temperature: no particle moves against the others");
   double const factor = wanted > 0 ? std::sqrt(wanted / twice_kinetic.value()) : 0;
   each_velocity(of, [&](double* v, double, int D) {
     for (int a = 0; a < D; ++a) v[a] = common[a] + factor * (v[a] - common[a]);
