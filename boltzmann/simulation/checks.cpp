@@ -1,5 +1,6 @@
 // What is looked at before the first step, so that a wrong simulation is one line.
 #include <boltzmann/diagnoses/measures.hpp>
+#include <boltzmann/dissipation/rigid_motion.hpp>
 #include <boltzmann/integrators/driven_fields.hpp>
 #include <boltzmann/schemes/after_others.hpp>
 #include <boltzmann/schemes/molecules/molecule_scheme.hpp>
@@ -295,8 +296,14 @@ void Simulation::check_barostats() {
           if (&rigid->ensemble() == ensemble) return true;
     return false;
   };
+  std::vector<AnyEnsemble const*> rigid;
   for (auto const* ensemble : ensembles_)
-    if (!ensemble->mobility.taken.empty() && !known(ensemble))
+    if (!ensemble->mobility.taken.empty()) rigid.push_back(ensemble);
+  for (auto const* dissipation : dissipations_)
+    if (dynamic_cast<RigidVelocities const*>(dissipation))
+      for (auto const* ensemble : dissipation->ensembles()) rigid.push_back(ensemble);
+  for (auto const* ensemble : rigid)
+    if (!known(ensemble))
       throw Error(
           "barostat: rigid bonds of which no scheme knows would be stretched; MoleculeScheme::keeps() tells one");
   for (auto const& barostat : barostats_) barostat->check(stretched_system());
