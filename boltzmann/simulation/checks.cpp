@@ -1,5 +1,6 @@
 // What is looked at before the first step, so that a wrong simulation is one line.
 #include <boltzmann/diagnoses/measures.hpp>
+#include <boltzmann/dissipation/rigid_motion.hpp>
 #include <boltzmann/integrators/driven_fields.hpp>
 #include <boltzmann/schemes/after_others.hpp>
 #include <boltzmann/schemes/molecules/molecule_scheme.hpp>
