@@ -53,7 +53,7 @@ std::map<std::string, std::string> read_elements(Item const& table, Reading& rea
   auto const names = reading.ensemble_names();
   for (auto const& entry : item->entries) {
     if (std::find(names.begin(), names.end(), entry.key) == names.end())
-      reading.mistake(entry.place, fmt::format("elements: there is no ensemble '{}'{}", quoted(entry.key),
+      reading.mistake(entry.place, fmt::format("elements: there is no ensemble '{}'{}", boltzmann::quoted(entry.key),
                                                did_you_mean(entry.key, names)));
     else if (auto const element = read_text(entry.item, "elements." + entry.key, reading.context))
       elements[entry.key] = *element;
