@@ -125,7 +125,7 @@ class EnsembleReader {
     auto const symbols = element_symbols();
     if (!find_element(options_.element) || std::isdigit(static_cast<unsigned char>(options_.element[0])) != 0)
       mistake(item->place, fmt::format("element: '{}' is not the symbol of an element, as in element = \"Cu\"{}",
-                                       quoted(options_.element), did_you_mean(options_.element, symbols)));
+                                       boltzmann::quoted(options_.element), did_you_mean(options_.element, symbols)));
     ensemble_.element = options_.element;
   }
 
@@ -443,7 +443,7 @@ void note_species(Reading& reading) {
   for (auto const& [path, file] : reading.files) {
     std::vector<std::string> none, several;
     for (auto const& [word, species] : file.species) {
-      std::string const text = fmt::format("'{}' ({})", quoted(word), species.particles);
+      std::string const text = fmt::format("'{}' ({})", boltzmann::quoted(word), species.particles);
       if (species.ensembles == 0) none.push_back(text);
       if (species.ensembles > 1) several.push_back(text);
     }

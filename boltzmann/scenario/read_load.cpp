@@ -16,7 +16,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <filesystem>
 #include <stdexcept>
 #include <utility>
 
@@ -549,7 +548,7 @@ bool is_skew(std::array<double, 9> const& lattice) {
 
 }  // namespace
 
-std::string Loader::file_name() const { return std::filesystem::path(options_.path).filename().string(); }
+std::string Loader::file_name() const { return options_.path.substr(options_.path.find_last_of('/') + 1); }
 
 bool Loader::sets(std::string_view field) const {
   if (!kind_) return false;

@@ -169,13 +169,16 @@ TEST(Files, GroupsWithoutParticlesAreTold) {
       "load = { kind = \"positions\", positions = [[1, 1, 1], [2, 2, 2]] }\n";
   EXPECT_TRUE(notes(
       Case("pull",
-           start + "[[influences]]\nlaw = \"uniform\"\non = \"a\"\nacceleration = [1, 0, 0]\nwhere = \"y > 5\"\n"),
+           start +
+               "[[influences]]\nlaw = \"uniform-gravity\"\non = \"a\"\nacceleration = [1, 0, 0]\nwhere = \"y > 5\"\n"),
       "warning: where: 'y > 5' is true for no particle of 'a'"));
   Case const event("event", start + "[[events]]\nat = 0.01\nkick = [1, 0, 0]\nwhere = \"z < 0\"\n");
   EXPECT_TRUE(notes(event, "note: where: 'z < 0' is true for no particle at the start"));
   EXPECT_TRUE(contains(event.run().err, "warning: event at 0.01: where 'z < 0' is true for no particle"));
-  EXPECT_TRUE(refuses(Case("measure", start + "[[diagnoses]]\nkind = \"temperature\"\nwhere = \"x > 7\"\n"),
-                      "the group has no particle"));
+  EXPECT_TRUE(
+      refuses(Case("measure",
+                   start + "[[diagnoses]]\nkind = \"extremes\"\nquantity = \"x\"\nlabel = \"a\"\nwhere = \"x > 7\"\n"),
+              "the group has no particle"));
   // And no false alarm.
   auto const told = Case("fine", start + "[[ensembles.set]]\nwhere = \"x > 1.5\"\nfreeze = true\n").check();
   EXPECT_FALSE(contains(told.err, "true for no particle")) << told.err;
