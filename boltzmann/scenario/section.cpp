@@ -10,6 +10,7 @@
 #include <cctype>
 #include <cmath>
 #include <filesystem>
+#include <utility>
 
 namespace boltzmann {
 namespace {
@@ -29,6 +30,18 @@ bool same_but_for_capitals(std::string const& key, std::vector<std::string> cons
   return std::any_of(words.begin(), words.end(), [&](std::string const& word) {
     return std::equal(word.begin(), word.end(), key.begin(), key.end(), same);
   });
+}
+
+/// Where all words of a kind are listed; empty: nowhere.
+std::string list_of(std::string_view kind) {
+  static constexpr std::pair<std::string_view, char const*> lists[] = {
+      {"diagnosis", "diagnoses"},    {"law", "laws"},
+      {"load", "loaders"},           {"class", "classes"},
+      {"drawing", "drawings"},       {"material", "materials"},
+      {"integrator", "integrators"}, {"dissipation", "dissipations"}};
+  for (auto const& [name, list] : lists)
+    if (name == kind) return std::string("bzm list ") + list;
+  return "";
 }
 
 }  // namespace
@@ -149,7 +162,8 @@ std::optional<std::string> read_word(Item const& item, std::string_view name, st
   if (context.notes) context.notes->word(item, words);
   if (std::find(words.begin(), words.end(), *text) != words.end()) return text;
   context.mistakes.add(item.place,
-                       fmt::format("unknown {} '{}'{}", name, *text, choices_with(hint_for(*text, words), words)));
+                       fmt::format("unknown {} '{}'{}", name, *text,
+                                   choices_with(hint_for(*text, words), words, "there are", list_of(name))));
   return std::nullopt;
 }
 
@@ -175,10 +189,10 @@ bool Section::other_capitals(std::string_view key) {
   if (has(key)) return false;
   for (auto const& entry : table_.entries) {
     if (!same_but_for_capitals(entry.key, {std::string(key)})) continue;
+    bool const tables = entry.item.is(Item::Kind::table) ||
+                        (!entry.item.elements.empty() && entry.item.elements.front().is(Item::Kind::table));
     mistake(entry.place,
-            fmt::format("unknown {} '{}' in {}; did you mean '{}'?",
-                        entry.item.is(Item::Kind::table) || entry.item.is(Item::Kind::array) ? "table" : "key",
-                        entry.key, title_, key));
+            fmt::format("unknown {} '{}' in {}; did you mean '{}'?", tables ? "table" : "key", entry.key, title_, key));
     known_.push_back(entry.key);
     return true;
   }

@@ -69,7 +69,8 @@ class FromJson {
     auto const name = get<std::string>(value_.is_string(), "a text");
     auto const& words = option_.kind.words;
     if (std::find(words.begin(), words.end(), name) == words.end())
-      throw Error(fmt::format("unknown {} '{}'{}", option_.key, boltzmann::quoted(name), boltzmann::choices(name, words)));
+      throw Error(
+          fmt::format("unknown {} '{}'{}", option_.key, boltzmann::quoted(name), boltzmann::choices(name, words)));
     value.choose(name);
   }
   void operator()(CountOrList const& either) const {

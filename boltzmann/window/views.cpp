@@ -235,7 +235,7 @@ Views::Entry const& Views::entry(std::string const& name) const {
     if (entry.name == name) return entry;
     names.push_back(entry.name);
   }
-  throw Error(fmt::format("there is no diagnosis '{}'{}", name, choices(name, names)));
+  throw Error(fmt::format("there is no diagnosis '{}'{}", name, boltzmann::choices(name, names)));
 }
 
 Canvas Views::canvas(Entry const& entry, json const& view, std::int64_t step, double time) const {

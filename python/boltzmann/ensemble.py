@@ -255,6 +255,8 @@ class Ensemble:
         function of ``@sim.change``. Views that were made before turn into NaN."""
         if not isinstance(count, (int, np.integer)) or isinstance(count, bool) or count < 0:
             raise Error(f"resize: a number of particles is needed, 0 or more, not {count!r}")
+        if count > 2**62:
+            raise Error(f"resize: at most 2^62 particles, not {count}")
         core = self._core()
         if self._sim._looking:
             raise Error("resize: observers change nothing; @sim.change(n) is for what changes particles")

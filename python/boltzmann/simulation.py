@@ -306,7 +306,7 @@ class Simulation:
             document.table("box", _box_around(document.positions()), caller())
         o = self._overrides
         core = self._located(
-            document, lambda: Core(self._source(document), o["set"], o["steps"], o["seed"], o["threads"])
+            document, lambda: _core.Core(self._source(document), o["set"], o["steps"], o["seed"], o["threads"])
         )
         digest = core.digest()
         for name, (layout, count, rows) in self._kept_rows.items():
