@@ -142,15 +142,19 @@ SolvingRanks const* MeshScheme::deposit_share(Work& work, Whose readers) {
   auto const* const ranks = solving_ranks(work, false);
   double const unit = 1 / (work.per_strength * work.grid.cell_volume());
   auto& density = work.density.components[0];
-  if (ranks && readers == Whose::own) {
+  work.others = nullptr;
+  if (ranks && readers == Whose::own && !work.walls.lifts()) {
     learn_readers(work);
     work.ghosts.fold_planes(counts);
     sum_in_planes(work, counts);
     auto const [begin, end] =
         ranks->part(static_cast<std::size_t>(team.rank()), work.grid.nodes[work.grid.dimension - 1]);
     work.ghosts.fold_in_planes(counts, unit, density, threads(), begin, end);
+    work.planes = {begin, end};
+    work.others = &team;
   } else {
     team.sum({counts, work.ghosts.size()});
+    if (work.ghosts.smears()) work.unfolded.assign(counts, counts + work.ghosts.size());
     work.ghosts.fold(counts, unit, density, threads());
   }
   add_background(work);

@@ -8,11 +8,31 @@
 namespace boltzmann {
 namespace {
 
-void add(std::int64_t* to, std::int64_t const* from, std::size_t count, double parity) {
-  if (parity > 0)
+void add(std::int64_t* to, std::int64_t const* from, std::size_t count, double factor) {
+  if (factor == 1)
     for (std::size_t i = 0; i < count; ++i) to[i] += from[i];
   else
-    for (std::size_t i = 0; i < count; ++i) to[i] -= from[i];
+    for (std::size_t i = 0; i < count; ++i) to[i] += static_cast<std::int64_t>(factor) * from[i];
+}
+
+enum class Reflection { value, normal, mirror };
+
+/// A node of an axis of n cells with walls. A mesh of few cells may be reflected more than once.
+Ghosts::Term reflect(std::int64_t node, std::int64_t n, FieldEnds const& ends, Reflection how) {
+  Ghosts::Term term;
+  while (node < 0 || node > n) {
+    bool const low = node < 0;
+    bool const grounded = (low ? ends.low : ends.high) == FieldBoundary::dirichlet;
+    if (grounded && how != Reflection::mirror) {
+      (low ? term.low : term.high) += 2 * term.factor;
+      term.factor = -term.factor;
+    } else if (how == Reflection::normal) {
+      term.factor = -term.factor;
+    }
+    node = low ? -node : 2 * n - node;
+  }
+  term.node = static_cast<std::uint32_t>(node);
+  return term;
 }
 
 }  // namespace
@@ -23,43 +43,79 @@ Ghosts::Ghosts(int dimension, std::array<std::size_t, 3> const& cells, std::arra
     if (a >= dimension) {
       cells_[a] = 1;
       mesh_nodes_[a] = 1;
-      to_[a] = {0};
-      parity_[a] = {1};
-      is_image_[a] = {0};
+      terms_[a] = normal_terms_[a] = mirrored_[a] = {Term{}};
       continue;
     }
     auto const n = static_cast<std::int64_t>(cells[a]);
     bool const periodic = ends[a].low == FieldBoundary::periodic, open = ends[a].low == FieldBoundary::open;
     mesh_nodes_[a] = periodic ? cells[a] : open ? cells[a] + static_cast<std::size_t>(order) : cells[a] + 1;
     for (std::int64_t g = 0; g < n + order; ++g) {
-      std::int64_t node = g - before_;
-      double parity = 1;
-      bool image = false;
-      if (periodic) {
-        node = (node % n + n) % n;
-      } else if (open) {
-        node = g;
-      } else {
-        // A mesh of few cells may be reflected more than once.
-        while (node < 0 || node > n) {
-          bool const low = node < 0;
-          node = low ? -node : 2 * n - node;
-          if ((low ? ends[a].low : ends[a].high) == FieldBoundary::dirichlet) parity = -parity;
-          image = !image;
-        }
-      }
-      to_[a].push_back(static_cast<std::uint32_t>(node));
-      parity_[a].push_back(parity);
-      is_image_[a].push_back(image);
+      std::int64_t const node = g - before_;
+      auto const term = [&](Reflection how) {
+        if (periodic) return Term{static_cast<std::uint32_t>((node % n + n) % n)};
+        if (open) return Term{static_cast<std::uint32_t>(g)};
+        return reflect(node, n, ends[a], how);
+      };
+      terms_[a].push_back(term(Reflection::value));
+      normal_terms_[a].push_back(term(Reflection::normal));
+      mirrored_[a].push_back(term(Reflection::mirror));
     }
   }
 }
 
-void Ghosts::fold_planes(std::int64_t* counts) const {
+bool Ghosts::smears() const {
+  if (order_ < 3) return false;
+  for (int a = 0; a < dimension_; ++a)
+    if (ends_[a].low == FieldBoundary::dirichlet || ends_[a].high == FieldBoundary::dirichlet) return true;
+  return false;
+}
+
+void Ghosts::row(double const* values, int c, std::size_t j, std::size_t k, double* line, double* to) const {
+  std::size_t const mx = mesh_nodes_[0], my = mesh_nodes_[1], last_y = my - 1, last_z = mesh_nodes_[2] - 1;
+  Term const& y = c == 1 ? normal_terms_[1][j] : terms_[1][j];
+  Term const& z = c == 2 ? normal_terms_[2][k] : terms_[2][k];
+  auto const mesh_row = [&](std::size_t at_y, std::size_t at_z) { return values + (at_z * my + at_y) * mx; };
+  double const* from = mesh_row(y.node, z.node);
+  double const factor = y.factor * z.factor;
+  // Walls have a value of their own only for the component across them: potential and tangential field are zero there.
+  double const low = c == 1 ? y.low * z.factor : c == 2 ? z.low * y.factor : 0;
+  double const high = c == 1 ? y.high * z.factor : c == 2 ? z.high * y.factor : 0;
+  if (factor != 1 || low != 0 || high != 0) {
+    double const* const at_low = c == 1 ? mesh_row(0, z.node) : mesh_row(y.node, 0);
+    double const* const at_high = c == 1 ? mesh_row(last_y, z.node) : mesh_row(y.node, last_z);
+    for (std::size_t i = 0; i < mx; ++i) line[i] = factor * from[i];
+    if (low != 0)
+      for (std::size_t i = 0; i < mx; ++i) line[i] += low * at_low[i];
+    if (high != 0)
+      for (std::size_t i = 0; i < mx; ++i) line[i] += high * at_high[i];
+    from = line;
+  }
+  std::size_t const first = place(0, 0);
+  std::copy_n(from, mx, to + first);
+  auto const& terms = c == 0 ? normal_terms_[0] : terms_[0];
+  for (std::size_t i = 0; i < terms.size(); ++i) {
+    if (i == first) i += mx;
+    if (i >= terms.size()) break;
+    Term const& x = terms[i];
+    to[i] = x.factor * from[x.node];
+    if (c == 0 && (x.low != 0 || x.high != 0)) to[i] += x.low * from[0] + x.high * from[mx - 1];
+  }
+}
+
+void Ghosts::fold_planes(std::int64_t* counts) const { fold_planes(counts, terms_); }
+
+void Ghosts::fold_planes(std::int64_t* counts, Terms const& terms) const {
   int const a = dimension_ - 1;
   if (a == 0) return;  // its planes are single nodes, and belong to a row
-  for (std::size_t g = 0; g < nodes(a); ++g)
-    if (!own(a, g)) add(counts + place(a, mesh_node(a, g)) * plane(), counts + g * plane(), plane(), parity(a, g));
+  auto const to = [&](std::size_t node) { return counts + place(a, node) * plane(); };
+  for (std::size_t g = 0; g < nodes(a); ++g) {
+    if (own(a, g)) continue;
+    Term const& term = terms[a][g];
+    std::int64_t const* const from = counts + g * plane();
+    add(to(term.node), from, plane(), term.factor);
+    if (term.low != 0) add(to(0), from, plane(), term.low);
+    if (term.high != 0) add(to(mesh_nodes_[a] - 1), from, plane(), term.high);
+  }
 }
 
 void Ghosts::fold(std::int64_t* counts, double unit, std::vector<double>& density, int threads) const {
@@ -67,24 +123,32 @@ void Ghosts::fold(std::int64_t* counts, double unit, std::vector<double>& densit
   fold_in_planes(counts, unit, density, threads, 0, dimension_ == 1 ? 1 : mesh_nodes_[dimension_ - 1]);
 }
 
+void Ghosts::fold_mirrored(std::int64_t* counts, double unit, std::vector<double>& density, int threads) const {
+  fold_planes(counts, mirrored_);
+  fold_in_planes(counts, unit, density, threads, 0, dimension_ == 1 ? 1 : mesh_nodes_[dimension_ - 1], mirrored_);
+}
+
 void Ghosts::fold_in_planes(std::int64_t* counts, double unit, std::vector<double>& density, int threads,
                             std::size_t first, std::size_t last) const {
+  fold_in_planes(counts, unit, density, threads, first, last, terms_);
+}
+
+void Ghosts::fold_in_planes(std::int64_t* counts, double unit, std::vector<double>& density, int threads,
+                            std::size_t first, std::size_t last, Terms const& terms) const {
   // One axis after the other, the last first: rows are then whole pieces of memory until x.
   std::size_t const nx = nodes(0), ny = nodes(1);
   if (dimension_ == 3)
     for (std::size_t l = first; l < last; ++l) {
       std::int64_t* const at = counts + place(2, l) * plane();
-      for (std::size_t g = 0; g < ny; ++g)
-        if (!own(1, g)) add(at + place(1, mesh_node(1, g)) * nx, at + g * nx, nx, parity(1, g));
+      for (std::size_t g = 0; g < ny; ++g) {
+        if (own(1, g)) continue;
+        Term const& term = terms[1][g];
+        add(at + place(1, term.node) * nx, at + g * nx, nx, term.factor);
+        if (term.low != 0) add(at + place(1, 0) * nx, at + g * nx, nx, term.low);
+        if (term.high != 0) add(at + place(1, mesh_nodes_[1] - 1) * nx, at + g * nx, nx, term.high);
+      }
     }
-  // On a wall, images stand where the particles do.
-  auto const on_wall = [&](int a, std::size_t node) {
-    if (a >= dimension_ || ends_[a].low == FieldBoundary::periodic || ends_[a].low == FieldBoundary::open) return 1.0;
-    FieldBoundary const wall = node == 0                    ? ends_[a].low
-                               : node == mesh_nodes_[a] - 1 ? ends_[a].high
-                                                            : FieldBoundary::open;
-    return wall == FieldBoundary::neumann ? 2.0 : wall == FieldBoundary::dirichlet ? 0.0 : 1.0;
-  };
+  auto const per_volume = [&](int a, std::size_t node) { return is_wall(a, node) ? 2.0 : 1.0; };
   std::size_t const mx = mesh_nodes_[0], my = mesh_nodes_[1], of_plane = dimension_ == 3 ? my : 1;
   density.resize(mx * my * mesh_nodes_[2]);
   for_ranges((last - first) * of_plane, std::max<std::size_t>(1, 32768 / mx), threads,
@@ -92,16 +156,18 @@ void Ghosts::fold_in_planes(std::int64_t* counts, double unit, std::vector<doubl
                for (std::size_t row = first * of_plane + begin; row < first * of_plane + end; ++row) {
                  std::size_t const j = row % my, k = row / my;
                  std::int64_t* const from = counts + (place(2, k) * ny + place(1, j)) * nx;
-                 for (std::size_t g = 0; g < nx; ++g)
-                   if (!own(0, g)) {
-                     std::int64_t& to = from[place(0, mesh_node(0, g))];
-                     to += parity(0, g) > 0 ? from[g] : -from[g];
-                   }
-                 double const factor = unit * on_wall(1, j) * on_wall(2, k);
+                 for (std::size_t g = 0; g < nx; ++g) {
+                   if (own(0, g)) continue;
+                   Term const& term = terms[0][g];
+                   add(from + place(0, term.node), from + g, 1, term.factor);
+                   if (term.low != 0) add(from + place(0, 0), from + g, 1, term.low);
+                   if (term.high != 0) add(from + place(0, mx - 1), from + g, 1, term.high);
+                 }
+                 double const factor = unit * per_volume(1, j) * per_volume(2, k);
                  double* const to = density.data() + row * mx;
                  for (std::size_t i = 0; i < mx; ++i) to[i] = factor * static_cast<double>(from[place(0, i)]);
-                 to[0] *= on_wall(0, 0);
-                 if (mx > 1) to[mx - 1] *= on_wall(0, mx - 1);
+                 to[0] *= per_volume(0, 0);
+                 if (mx > 1) to[mx - 1] *= per_volume(0, mx - 1);
                }
              });
 }

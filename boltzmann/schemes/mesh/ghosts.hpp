@@ -23,17 +23,27 @@ class Ghosts {
   /// Cells of the box along an axis.
   std::size_t cells(int axis) const { return cells_[axis]; }
   /// Nodes along an axis, ghosts included: cells + order.
-  std::size_t nodes(int axis) const { return to_[axis].size(); }
+  std::size_t nodes(int axis) const { return terms_[axis].size(); }
   std::size_t size() const { return nodes(0) * nodes(1) * nodes(2); }
 
-  /// What node g of an axis stands for: a node of the mesh.
-  std::uint32_t mesh_node(int axis, std::size_t g) const { return to_[axis][g]; }
-  /// +1 or -1: how the potential continues there.
-  double parity(int axis, std::size_t g) const { return parity_[axis][g]; }
-  /// The same for component c of the field: the one along the axis continues the other way round.
-  double field_parity(int axis, std::size_t g, int c) const {
-    return is_image_[axis][g] && c == axis ? -parity_[axis][g] : parity_[axis][g];
-  }
+  /// What stands for a value beyond the ends: factor times the value on a node of the mesh, plus low (high) times that
+  /// on the first (last) one.
+  struct Term {
+    std::uint32_t node = 0;
+    double factor = 1, low = 0, high = 0;
+  };
+  /// For counts, a potential, and components of a field along other axes. Beyond a Neumann end the mirror image has the
+  /// same sign. Beyond a Dirichlet end the value is extrapolated, v(-x) = 2 v(0) - v(x): for counts this keeps their sum
+  /// and their dipole moment.
+  Term const& term(int axis, std::size_t g) const { return terms_[axis][g]; }
+  /// For the component of a field along the axis itself: beyond a Neumann end it changes its sign.
+  Term const& normal_term(int axis, std::size_t g) const { return normal_terms_[axis][g]; }
+  /// The node of the mesh that node g of an axis stands for.
+  std::uint32_t mesh_node(int axis, std::size_t g) const { return terms_[axis][g].node; }
+
+  /// Row (j, k), nodes(0) numbers, of component `c` of a field, or of a potential (c = -1). `line` has a number for each
+  /// node of the mesh along x.
+  void row(double const* values, int c, std::size_t j, std::size_t k, double* line, double* to) const;
 
   /// Where node j of the mesh stands among those of an axis.
   std::size_t place(int axis, std::size_t j) const {
@@ -43,25 +53,39 @@ class Ghosts {
   std::size_t plane() const { return dimension_ == 3 ? nodes(0) * nodes(1) : dimension_ == 2 ? nodes(0) : 1; }
 
   /// Adds what stands on ghosts to the nodes that they stand for, in place, and gives the counts on the mesh times
-  /// `unit`. (The sums are of integers.) At a plane of symmetry the images of particles count as well.
+  /// `unit`. (The sums are of integers.) The cell of a node on a wall is half as large as others, so its counts are
+  /// doubled.
   void fold(std::int64_t* counts, double unit, std::vector<double>& density, int threads) const;
-  /// The same in two steps: planes beyond the ends of the last axis; then what stands in planes [first, last) of the mesh.
+  /// The density at Dirichlet ends as if they were mirrors, which is exact for a uniform density. (That of fold() keeps
+  /// the dipole moment of every particle, and so smears charge across the end where clouds are wider than two cells.)
+  void fold_mirrored(std::int64_t* counts, double unit, std::vector<double>& density, int threads) const;
+  /// Whether the two differ.
+  bool smears() const;
+  /// fold() in two steps: planes beyond the ends of the last axis; then what stands in planes [first, last) of the mesh.
   void fold_planes(std::int64_t* counts) const;
   void fold_in_planes(std::int64_t* counts, double unit, std::vector<double>& density, int threads, std::size_t first,
                       std::size_t last) const;
 
  private:
   bool has_ghosts(int axis) const { return axis < dimension_ && ends_[axis].low != FieldBoundary::open; }
+  /// Whether a node of the mesh is on a wall.
+  bool is_wall(int axis, std::size_t node) const {
+    return has_ghosts(axis) && ends_[axis].low != FieldBoundary::periodic &&
+           (node == 0 || node == mesh_nodes_[axis] - 1);
+  }
   /// Whether a node is one of the mesh itself.
   bool own(int axis, std::size_t g) const {
     return !has_ghosts(axis) || (g >= place(axis, 0) && g < place(axis, mesh_nodes_[axis]));
   }
 
+  using Terms = std::array<std::vector<Term>, 3>;
+  void fold_planes(std::int64_t* counts, Terms const& terms) const;
+  void fold_in_planes(std::int64_t* counts, double unit, std::vector<double>& density, int threads, std::size_t first,
+                      std::size_t last, Terms const& terms) const;
+
   int dimension_, order_, before_;
   std::array<std::size_t, 3> cells_, mesh_nodes_;
-  std::array<std::vector<std::uint32_t>, 3> to_;
-  std::array<std::vector<double>, 3> parity_;
-  std::array<std::vector<std::uint8_t>, 3> is_image_;
+  Terms terms_, normal_terms_, mirrored_;
   std::array<FieldEnds, 3> ends_;
 };
 

@@ -252,6 +252,7 @@ void MeshScheme::add_influences(double time) {
   measured_ = false;
   SolvingRanks const* const ranks = division_ ? deposit_share(work, Whose::own) : deposit(work);
   solve(work, false, ranks);
+  if (!influence_field_) work.walls.for_particles(work.field.components, law_.constant, work.background(*this));
   if (!interpolation_) pad(work.ghosts, work.field, false, work.padded, threads(), ranks);
   std::vector<double> E;
   for (auto const& loaded : loaded_) {
@@ -288,6 +289,7 @@ std::vector<MeshField const*> MeshScheme::mesh_fields() {
     bool const together = division_ && division_->sums_suffice();
     solve(work, true, together ? deposit_share(work, Whose::everybody) : deposit(work));
   }
+  work.show_density(*this);
   return {&work.density, &work.potential, &work.field};
 }
 

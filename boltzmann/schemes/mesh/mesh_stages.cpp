@@ -93,15 +93,19 @@ void MeshScheme::assign_density(MeshField& density) {
   Work& work = this->work();
   double const per_strength = scale_of_counts();
   if (auto const outside = count(work, per_strength, Whose::everybody); outside != no_particle) refuse_outside(outside);
-  work.ghosts.fold(work.tallies.sum(), 1 / (per_strength * work.grid.cell_volume()), density.components[0], threads());
+  std::int64_t* const counts = work.tallies.sum();
+  work.per_strength = per_strength;
+  if (work.ghosts.smears()) work.unfolded.assign(counts, counts + work.ghosts.size());
+  work.ghosts.fold(counts, 1 / (per_strength * work.grid.cell_volume()), density.components[0], threads());
 }
 
 void MeshScheme::calculate_potential(MeshField const& density, MeshField& potential) {
-  work().solver.potential(density.components[0], law_.constant, potential.components[0]);
+  work().solver.potential(work().walls.source(density.components[0]), law_.constant, potential.components[0]);
 }
 
 void MeshScheme::calculate_field(MeshField const& potential, MeshField& field) {
   work().solver.field(potential.components[0], field.components);
+  work().walls.correct(field.components, law_.constant, work().background(*this));
 }
 
 /// The density of all particles. What it gives is for solve(): here nobody, every rank solves what it solves alone.
@@ -119,6 +123,7 @@ SolvingRanks const* MeshScheme::deposit(Work& work) {
   if (work.density.components[0].size() != work.grid.size())
     throw Error(fmt::format("mesh: the density has {} numbers, the mesh {} nodes", work.density.components[0].size(),
                             work.grid.size()));
+  work.others = nullptr;
   add_background(work);
   return nullptr;
 }
@@ -141,7 +146,7 @@ std::vector<double> MeshScheme::shares_inside(MeshGrid const& grid) const {
 void MeshScheme::add_background(Work& work) const {
   if (!background_ || closed()) return;  // where the field is closed the mean is left out anyway
   if (work.inside.empty()) work.inside = shares_inside(work.grid);
-  double const density = -work.total_strength / box().volume();
+  double const density = work.background(*this);
   auto& nodes = work.density.components[0];
   for (std::size_t k = 0; k < work.grid.nodes[2]; ++k)
     for (std::size_t j = 0; j < work.grid.nodes[1]; ++j)
@@ -149,7 +154,7 @@ void MeshScheme::add_background(Work& work) const {
         std::size_t const node = work.grid.index(i, j, k);
         double share = work.inside[node];
         std::array<std::size_t, 3> const at{i, j, k};
-        // At a plane of symmetry the image has the other half.
+        // The density on a wall is that of the half cell inside.
         for (int a = 0; a < box().dimension(); ++a)
           if (!box().periodic(a) && ends_[a].low != FieldBoundary::open &&
               (at[static_cast<std::size_t>(a)] == 0 || at[static_cast<std::size_t>(a)] == work.grid.nodes[a] - 1))
@@ -160,9 +165,11 @@ void MeshScheme::add_background(Work& work) const {
 
 void MeshScheme::solve(Work& work, bool with_potential, SolvingRanks const* ranks) {
   ++solves_;
+  work.walls.take(work.density.components[0], work.planes, work.others);
   if (!potential_calculation_ && !influence_field_) {
-    work.solver.solve(work.density.components[0], law_.constant,
+    work.solver.solve(work.walls.source(work.density.components[0]), law_.constant,
                       with_potential ? &work.potential.components[0] : nullptr, work.field.components, ranks);
+    work.walls.correct(work.field.components, law_.constant, work.background(*this));
     return;
   }
   auto const check = [&](MeshField const& result, std::size_t components) {
@@ -188,6 +195,18 @@ void MeshScheme::solve(Work& work, bool with_potential, SolvingRanks const* rank
   else
     calculate_field(work.potential, work.field);
   check(work.field, static_cast<std::size_t>(work.grid.dimension));
+}
+
+double MeshScheme::Work::background(MeshScheme const& scheme) const {
+  return scheme.background_ ? -total_strength / scheme.box().volume() : 0.0;
+}
+
+void MeshScheme::Work::show_density(MeshScheme const& scheme) {
+  if (unfolded.empty() || scheme.density_assignment_) return;
+  ghosts.fold_mirrored(unfolded.data(), 1 / (per_strength * grid.cell_volume()), density.components[0],
+                       scheme.threads());
+  unfolded.clear();
+  scheme.add_background(*this);
 }
 
 void MeshScheme::gather(Work& work, Loaded const& loaded, bool potential, double* result, bool overwrite,

@@ -402,22 +402,22 @@ class MeshSteps final : public FusedSteps {
     std::size_t const nx = ghosts.nodes(0), rows = ghosts.nodes(1) * ghosts.nodes(2);
     ghosts.fold(counts_.data(), unit_, work_.density.components[0], scheme_.threads());
     scheme_.add_background(work_);
-    work_.solver.solve(work_.density.components[0], scheme_.law_.constant, nullptr, work_.field.components,
+    double const constant = scheme_.law_.constant, background = work_.background(scheme_);
+    work_.walls.take(work_.density.components[0], work_.planes, nullptr);
+    work_.solver.solve(work_.walls.source(work_.density.components[0]), constant, nullptr, work_.field.components,
                        scheme_.solving_ranks(work_, true));
+    work_.walls.correct(work_.field.components, constant, background);
+    work_.walls.for_particles(work_.field.components, constant, background);
     int const order = ghosts.order();
     for_ranges(rows, row_grain(), scheme_.threads(), [&](std::size_t begin, std::size_t end) {
-      std::vector<Real> line(nx);
+      std::vector<double> line(work_.grid.nodes[0]), padded(nx);
       for (std::size_t row = begin; row < end; ++row) {
         std::size_t const j = row % ghosts.nodes(1), k = row / ghosts.nodes(1);
         for (int c = 0; c < dimension_; ++c) {
-          double const* from = work_.field.components[static_cast<std::size_t>(c)].data() +
-                               work_.grid.index(0, ghosts.mesh_node(1, j), ghosts.mesh_node(2, k));
-          double const sign = ghosts.field_parity(1, j, c) * ghosts.field_parity(2, k, c);
-          for (std::size_t i = 0; i < nx; ++i)
-            line[i] = static_cast<Real>(sign * ghosts.field_parity(0, i, c) * from[ghosts.mesh_node(0, i)]);
+          ghosts.row(work_.field.components[static_cast<std::size_t>(c)].data(), c, j, k, line.data(), padded.data());
           Real* to = field_.data() + row * slots_x_ * numbers_ + static_cast<std::size_t>(c) * width_;
           for (std::size_t i = 0; i < slots_x_; ++i, to += numbers_)
-            for (int n = 0; n < order; ++n) to[n] = line[i + static_cast<std::size_t>(n)];
+            for (int n = 0; n < order; ++n) to[n] = static_cast<Real>(padded[i + static_cast<std::size_t>(n)]);
         }
       }
     });

@@ -39,7 +39,10 @@ bool MeshScheme::Loaded::refresh_share(int threads) {
 
 MeshScheme::Work::Work(Ghosts the_ghosts, MeshGrid const& the_grid, std::array<FieldEnds, 3> const& ends,
                        PoissonForm form, int threads, GreensFunction const& green)
-    : ghosts(std::move(the_ghosts)), grid(the_grid), solver(the_grid, ends, form, threads, green) {
+    : ghosts(std::move(the_ghosts)),
+      grid(the_grid),
+      solver(the_grid, ends, form, threads, green),
+      walls(the_grid, ends, form, ghosts.order()) {
   using namespace dimensions;
   density = {"density", charge / (length * length * length), grid, std::vector<std::vector<double>>(1)};
   potential = {"potential", energy / charge, grid, std::vector<std::vector<double>>(1)};
@@ -51,7 +54,8 @@ std::size_t MeshScheme::Work::bytes() const {
   std::size_t doubles = density.components[0].capacity() + potential.components[0].capacity();
   for (auto const& component : field.components) doubles += component.capacity();
   for (auto const& component : padded) doubles += component.capacity();
-  return doubles * sizeof(double) + tallies.bytes() + solver.bytes();
+  return doubles * sizeof(double) + unfolded.capacity() * sizeof(std::int64_t) + tallies.bytes() + solver.bytes() +
+         walls.bytes();
 }
 
 void pad(Ghosts const& ghosts, MeshField const& field, bool potential, std::vector<std::vector<double>>& padded,
@@ -65,16 +69,12 @@ void pad(Ghosts const& ghosts, MeshField const& field, bool potential, std::vect
     padded[c].resize(ghosts.size());
     double const* from = field.components[c].data();
     double* to = padded[c].data();
-    auto const parity = [&](int a, std::size_t g) {
-      return potential ? ghosts.parity(a, g) : ghosts.field_parity(a, g, static_cast<int>(c));
-    };
     for_ranges(ny * nz, std::max<std::size_t>(1, 32768 / nx), threads, [&](std::size_t begin, std::size_t end) {
+      std::vector<double> line(grid.nodes[0]);
       for (std::size_t row = begin; row < end; ++row) {
         std::size_t const j = row % ny, k = row / ny;
         if (read && !read[grid.dimension == 2 ? ghosts.mesh_node(1, j) : ghosts.mesh_node(2, k)]) continue;
-        double const sign = parity(1, j) * parity(2, k);
-        double const* const mesh_row = from + grid.index(0, ghosts.mesh_node(1, j), ghosts.mesh_node(2, k));
-        for (std::size_t i = 0; i < nx; ++i) to[row * nx + i] = sign * parity(0, i) * mesh_row[ghosts.mesh_node(0, i)];
+        ghosts.row(from, potential ? -1 : static_cast<int>(c), j, k, line.data(), to + row * nx);
       }
     });
   }

@@ -3,6 +3,7 @@
 
 #include <boltzmann/schemes/mesh/assign_task.hpp>
 #include <boltzmann/schemes/mesh/ghosts.hpp>
+#include <boltzmann/schemes/mesh/grounded_walls.hpp>
 #include <boltzmann/schemes/mesh/mesh_scheme.hpp>
 #include <boltzmann/schemes/mesh/tallies.hpp>
 
@@ -28,17 +29,27 @@ struct MeshScheme::Work {
   Ghosts ghosts;
   MeshGrid grid;  ///< of the solver
   PoissonSolver solver;
+  GroundedWalls walls;
   MeshField density, potential, field;
-  Tallies tallies;                          ///< with ghosts
-  double total_strength = 0;                ///< at the last deposit
-  double per_strength = 1;                  ///< counts, at the last deposit of a divided run
-  std::vector<double> inside;               ///< the share of each node's cell that is in the box, when wanted
-  std::vector<std::vector<double>> padded;  ///< the field (and the potential last) with ghosts, when wanted
-  SolvingRanks ranks;                       ///< of a divided run, at the last solution
+  Tallies tallies;                             ///< with ghosts
+  double total_strength = 0;                   ///< at the last deposit
+  double per_strength = 1;                     ///< counts, at the last deposit of a divided run
+  std::vector<double> inside;                  ///< the share of each node's cell that is in the box, when wanted
+  std::vector<std::vector<double>> padded;     ///< the field (and the potential last) with ghosts, when wanted
+  SolvingRanks ranks;                          ///< of a divided run, at the last solution
+  std::pair<std::size_t, std::size_t> planes;  ///< of nodes, those whose density this rank knows; others if
+  Team* others = nullptr;                      ///< there are any
+  std::vector<std::int64_t>
+      unfolded;  ///< counts of the last deposit, where observers see another density than the solver
 
   Work(Ghosts ghosts, MeshGrid const& grid, std::array<FieldEnds, 3> const& ends, PoissonForm form, int threads,
        GreensFunction const& green);
   std::size_t bytes() const;
+  /// The uniform density that no particle has.
+  double background(MeshScheme const& scheme) const;
+  /// Where the solver's density is not that of the particles at the walls: puts theirs into `density`, for observers.
+  void show_density(MeshScheme const& scheme);
+  static std::vector<std::string> warn_of_open_axes(MeshScheme const& scheme, double step_size);
 };
 
 /// Counts per unit of strength so that neither a deposit (below 2^48) nor the sum of all (below 2^62) is too large, as

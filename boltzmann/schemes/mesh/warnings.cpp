@@ -64,9 +64,48 @@ DebyeLength debye_length(std::vector<SpeciesOnMesh> const& all, double frequency
 
 }  // namespace
 
+/// Particles that leave a mesh along an axis that is open for them end the run: always where there are walls of the field
+/// alone, and where some leave in the first steps.
+std::vector<std::string> MeshScheme::Work::warn_of_open_axes(MeshScheme const& scheme, double step_size) {
+  constexpr double first_steps = 10;
+  std::vector<std::string> lines;
+  Box const& box = scheme.box();
+  for (int a = 0; a < box.dimension(); ++a) {
+    if (box.boundary(a) != Boundary::open) continue;
+    FieldEnds const ends = scheme.ends_[static_cast<std::size_t>(a)];
+    if (ends.low != FieldBoundary::open) {
+      lines.push_back(fmt::format(
+          "warning: axis {} of the box is open, and its field ends at walls ({} and {}): a particle that comes there "
+          "leaves the mesh and ends the run; write boundary = \"reflecting\" for this axis of [box], or make the box "
+          "larger",
+          "xyz"[a], to_string(ends.low), to_string(ends.high)));
+      continue;
+    }
+    for (auto const& loaded : scheme.loaded_) {
+      AnyEnsemble const& ensemble = *loaded->ensemble;
+      double soonest = first_steps;
+      std::size_t first = 0;
+      for (std::size_t i = 0; i < ensemble.size() && loaded->kind.newton; ++i) {
+        double const* row = ensemble.row(i);
+        double const way = row[loaded->kind.velocity + a] * step_size;
+        double const left = way > 0 ? box.high(a) - row[a] : row[a] - box.low(a), steps = left / std::abs(way);
+        if (steps < soonest) soonest = steps, first = i;
+      }
+      if (soonest < first_steps)
+        lines.push_back(
+            fmt::format("warning: axis {} of the box is open, and particle {} of '{}' will leave the mesh in step {}, "
+                        "which ends the "
+                        "run; make the box larger, or write boundary = \"reflecting\" for this axis of [box]",
+                        "xyz"[a], first, ensemble.name(), static_cast<int>(soonest) + 1));
+    }
+  }
+  return lines;
+}
+
 std::vector<std::string> MeshScheme::warnings(double step_size) {
   pairs_.speak_in(spoken_units());
   std::vector<std::string> lines = pairs_.warnings(step_size);
+  for (auto& line : Work::warn_of_open_axes(*this, step_size)) lines.push_back(std::move(line));
   auto const time = [&](double number) { return spoken_units().text(number, dimensions::time, 3); };
   MeshGrid const grid = make_grid(box(), cells_);
   double widest = 0, particles = 0, frequency2 = 0, crossing = 0;
