@@ -169,6 +169,7 @@ Barostat::Barostat(BarostatOptions options, double boltzmann_constant)
 }
 
 void Barostat::pressure(double pressure) {
+  if (pressure != options_.pressure) record_ = {};
   options_.pressure = pressure;
   pressure_of_time_ = nullptr;
 }
@@ -239,8 +240,13 @@ double Barostat::act(StretchedSystem const& system, StepContext const& context) 
                     "be finite, and the temperature positive",
                     options_.pressure, options_.temperature));
   double work = 0;
-  for (auto const& axes : groups(system.schemes.front()->box().dimension()))
+  dimension_ = system.schemes.front()->box().dimension();
+  pressures_ = 0;
+  auto const all = groups(dimension_);
+  for (auto const& axes : all)
     work += options_.method == BarostatMethod::mtk ? push(system, axes, context) : move(system, axes, stream, context);
+  record_.duration = static_cast<double>(options_.every) * std::abs(context.dt);
+  record_.add(pressures_ / static_cast<double>(all.size()));
   return work;
 }
 
@@ -283,6 +289,7 @@ double Barostat::push(StretchedSystem const& system, std::vector<int> const& axe
   cool();
   go();
   auto const here = measure_stretch(system, axes);
+  pressures_ += here.pressure - options_.pressure;
   piston_rate_ += duration / piston_mass_ *
                   (2 * here.kinetic * (1 + part) + here.virial - dimension * options_.pressure * here.volume);
   go();
@@ -304,6 +311,7 @@ double Barostat::move(StretchedSystem const& system, std::vector<int> const& axe
   };
   ++moves_;
   auto const before = measure_stretch(system, axes);
+  pressures_ += before.pressure - options_.pressure;
   double const root = std::sqrt(before.volume), centre = mean(before),
                drawn = centre + std::sqrt(spread2) * stream.normal(), chance = stream.uniform();
   if (!(drawn > 0)) return 0;
@@ -389,7 +397,10 @@ std::string Barostat::report() const {
 }
 
 std::vector<double> Barostat::state() const {
-  std::vector<double> state{static_cast<double>(moves_), static_cast<double>(accepted_)};
+  std::vector<double> state{static_cast<double>(moves_), static_cast<double>(accepted_),
+                            static_cast<double>(dimension_)};
+  auto const record = record_.state();
+  state.insert(state.end(), record.begin(), record.end());
   if (options_.method != BarostatMethod::mtk) return state;
   state.insert(state.end(), {piston_mass_, piston_rate_});
   state.insert(state.end(), chain_.rates.begin(), chain_.rates.end());
@@ -402,12 +413,15 @@ void Barostat::restore(std::span<double const> state) {
     throw Error("the checkpoint does not fit this simulation: it has no barostat, or one of another method");
   moves_ = static_cast<std::size_t>(state[0]);
   accepted_ = static_cast<std::size_t>(state[1]);
+  dimension_ = static_cast<int>(state[2]);
+  record_.restore(state.subspan(3));
+  state = state.subspan(3 + record_.state().size());
   if (options_.method != BarostatMethod::mtk) return;
-  piston_mass_ = state[2];
-  piston_rate_ = state[3];
+  piston_mass_ = state[0];
+  piston_rate_ = state[1];
   std::size_t const length = chain_.rates.size();
-  std::copy_n(state.begin() + 4, length, chain_.rates.begin());
-  std::copy_n(state.begin() + 4 + static_cast<std::ptrdiff_t>(length), length, chain_.integrals.begin());
+  std::copy_n(state.begin() + 2, length, chain_.rates.begin());
+  std::copy_n(state.begin() + 2 + static_cast<std::ptrdiff_t>(length), length, chain_.integrals.begin());
 }
 
 }  // namespace boltzmann

@@ -62,6 +62,18 @@ struct StretchedSystem {
 /// (R. A. Lippert and others, J. Chem. Phys. 139, 164106 (2013)).
 class Barostat {
  public:
+  /// The pressure less its target, in means over equal parts of the run. Where there would be more parts than these, two
+  /// become one.
+  struct Record {
+    static constexpr std::size_t most = 16;
+    std::array<double, most> means = {};
+    double parts = 0, length = 1, in_part = 0, sum = 0;  ///< whole parts, moves in each, of the next one its moves
+    double duration = 0;                                 ///< time between two moves
+    void add(double difference);
+    std::vector<double> state() const;
+    void restore(std::span<double const> state);
+  };
+
   /// Error if temperature, compressibility or rate is not positive, or something is not finite.
   Barostat(BarostatOptions options, double boltzmann_constant);
 
@@ -84,6 +96,9 @@ class Barostat {
   std::size_t moves() const { return moves_; }
   std::size_t accepted() const { return accepted_; }
   std::string report() const;
+  /// At the end of a run: a line that begins with "warning: " if moves are hardly ever accepted, or if the mean pressure
+  /// of the second half of the run is far from its target and not on its way there.
+  std::vector<std::string> warnings(UnitSystem const& units) const;
   std::vector<double> state() const;
   void restore(std::span<double const> state);
 
@@ -99,6 +114,9 @@ class Barostat {
   std::size_t moves_ = 0, accepted_ = 0;
   double piston_mass_ = 0, piston_rate_ = 0;  // MTK: W, once it is known, and u
   ThermostatChain chain_{3};
+  double pressures_ = 0;  // of the groups of axes in this move, less the target
+  int dimension_ = 0;     // of the box, once it has moved
+  Record record_;
 };
 
 /// Stretches the boxes of all schemes about their middle by a factor along each axis, and the particles with them:

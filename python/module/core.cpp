@@ -282,7 +282,10 @@ std::vector<std::string> Core::conserved_lines() {
 
 std::vector<std::string> Core::drift_lines() {
   if (!start_) return {};
-  return drift_warnings(*start_, conserved(simulation()), scenario_->units);
+  auto lines = drift_warnings(*start_, conserved(simulation()), scenario_->units);
+  for (auto const& barostat : simulation().barostats())
+    for (auto& line : barostat->warnings(scenario_->units)) lines.push_back(std::move(line));
+  return lines;
 }
 
 std::vector<std::string> Core::warnings() {
