@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace boltzmann {
 namespace {
@@ -17,8 +18,11 @@ std::array<double, 3> difference(std::array<double, 3> const& a, std::array<doub
   return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
 }
 
-// Sum of |m v| and of |m r x v|.
-void add_scales(AnyEnsemble const& ensemble, Conserved& total) {
+// Sum of |m v| and of |m r x v|; mass and furthest coordinate.
+struct Extent {
+  double mass = 0, furthest = 0;
+};
+void add_scales(AnyEnsemble const& ensemble, Conserved& total, Extent& extent) {
   int const D = ensemble.dimension(), mass = ensemble.field("mass").offset,
             velocity = ensemble.field("velocity").offset;
   ExactSum momenta, angular_momenta;
@@ -26,12 +30,23 @@ void add_scales(AnyEnsemble const& ensemble, Conserved& total) {
     double const* row = ensemble.row(i);
     std::array<double, 3> r{}, v{};
     for (int a = 0; a < D; ++a) r[a] = row[a], v[a] = row[velocity + a];
+    extent.mass += row[mass];
+    for (int a = 0; a < D; ++a) extent.furthest = std::max(extent.furthest, std::abs(r[a]));
     momenta += row[mass] * magnitude(v);
     angular_momenta +=
         row[mass] * magnitude({r[1] * v[2] - r[2] * v[1], r[2] * v[0] - r[0] * v[2], r[0] * v[1] - r[1] * v[0]});
   }
   total.momentum_scale += momenta.value();
   total.angular_momentum_scale += angular_momenta.value();
+}
+
+/// Below 100 eps (length) / (step) a velocity moves nothing.
+void set_rounding(Extent const& extent, double step, Conserved& total) {
+  if (!(std::abs(step) > 0) || !std::isfinite(extent.furthest)) return;
+  double const velocity = 100 * std::numeric_limits<double>::epsilon() * extent.furthest / std::abs(step);
+  total.energy_rounding = 0.5 * extent.mass * velocity * velocity;
+  total.momentum_rounding = extent.mass * velocity;
+  total.angular_momentum_rounding = extent.furthest * total.momentum_rounding;
 }
 
 std::string with_unit(std::string const& quantity, std::string const& unit) {
@@ -60,10 +75,13 @@ Conserved conserved(Simulation const& simulation) {
                  simulation.has_events();
   bool massive = !ensembles.empty(), moves_in_space = true;
   bool periodic = false;
+  Extent extent;
   for (auto const* scheme : simulation.schemes()) {
     periodic = periodic || scheme->box().any_periodic();
     total.dimension = scheme->box().dimension();
     total.isolated = total.isolated && scheme->box().regions().empty();
+    for (int a = 0; a < total.dimension; ++a)
+      if (std::isfinite(scheme->box().length(a))) extent.furthest = std::max(extent.furthest, scheme->box().length(a));
     for (int a = 0; a < total.dimension; ++a)
       total.isolated = total.isolated && scheme->box().boundary(a) != Boundary::reflecting &&
                        scheme->box().boundary(a) != Boundary::mirror;
@@ -78,8 +96,9 @@ Conserved conserved(Simulation const& simulation) {
       continue;
     }
     moves_in_space = moves_in_space && ensemble->fields().front().dimension == dimensions::length;
-    add_scales(*ensemble, total);
+    add_scales(*ensemble, total, extent);
   }
+  set_rounding(extent, simulation.step_size(), total);
   if (simulation.schemes().front()->box().sheared()) {
     total.no_energy = "the images of a sheared box do work on what is in it";
     total.isolated = false;
@@ -102,8 +121,10 @@ std::vector<std::string> drift_warnings(Conserved const& start, Conserved const&
   std::vector<std::string> lines;
   auto const energy = [&](double number) { return units.text(number, dimensions::energy); };
   if (start.energy && end.energy && !start.driven && start.energy_scale > 0) {
-    double const given = std::abs(end.work - start.work) + std::abs(end.heat - start.heat);
-    if (std::abs(*end.energy - *start.energy) > 0.1 * std::max(start.energy_scale, given))
+    double const given = std::abs(end.work - start.work) + std::abs(end.heat - start.heat),
+                 scale = std::max({start.energy_scale, end.energy_scale, given});
+    double const change = std::abs(*end.energy - *start.energy);
+    if (change > std::max(0.1 * scale, end.energy_rounding))
       lines.push_back(fmt::format(
           "warning: {} should be conserved and has gone from {} to {}: the step is too long, or a force is not the "
           "gradient of its energy",
@@ -112,7 +133,7 @@ std::vector<std::string> drift_warnings(Conserved const& start, Conserved const&
   if (start.momentum && end.momentum && start.isolated && end.isolated) {
     double const scale = std::max(start.momentum_scale, end.momentum_scale),
                  change = magnitude(difference(*end.momentum, *start.momentum));
-    if (change > 0.01 * scale)
+    if (change > std::max(0.01 * scale, end.momentum_rounding))
       lines.push_back(
           fmt::format("warning: momentum should be conserved and has changed by {:.2g} % of the sum of |m v|, {}: a "
                       "law between two "
@@ -129,31 +150,36 @@ std::vector<std::string> conserved_table(Conserved const& start, Conserved const
   if (start.energy && end.energy) {
     // A shock's piston, or a heat bath, may do more than there was.
     double const given = std::abs(end.work - start.work) + std::abs(end.heat - start.heat);
-    bool const near_zero = std::abs(*start.energy) < 1e-3 * start.energy_scale;
-    double const own = near_zero ? start.energy_scale : std::abs(*start.energy);
+    double const all = std::max(start.energy_scale, end.energy_scale);
+    bool const at_rest = all <= end.energy_rounding, near_zero = std::abs(*start.energy) < 1e-3 * all;
+    double const own = at_rest ? end.energy_rounding : near_zero ? all : std::abs(*start.energy);
     bool const driven = given > own;
     double const scale = driven ? given : own;
     auto const unit = units.display(dimensions::energy);
     lines.push_back(row(with_unit(name_of_energy(start, end), unit.unit), *start.energy * unit.factor,
                         *end.energy * unit.factor, part(*end.energy - *start.energy, scale),
                         driven      ? "of what was given"
+                        : at_rest   ? "of rounding: nothing moves"
                         : near_zero ? "of kinetic + |potential|"
                                     : "of itself"));
   } else if (!start.no_energy.empty()) {
     lines.push_back(fmt::format("  {:<34} not defined: {}", "energy", start.no_energy));
   }
   auto const vector = [&](char const* name, Dimension dimension, std::array<double, 3> const& a,
-                          std::array<double, 3> const& b, double scale, char const* relative_to) {
+                          std::array<double, 3> const& b, double scale, double rounding, char const* relative_to) {
     auto const unit = units.display(dimension);
+    bool const at_rest = scale <= rounding;
     lines.push_back(row(with_unit(name, unit.unit), magnitude(a) * unit.factor, magnitude(b) * unit.factor,
-                        part(magnitude(difference(b, a)), scale), relative_to));
+                        part(magnitude(difference(b, a)), at_rest ? rounding : scale),
+                        at_rest ? "of rounding: nothing moves" : relative_to));
   };
   if (start.momentum && end.momentum)
     vector("momentum", dimensions::momentum, *start.momentum, *end.momentum,
-           std::max(start.momentum_scale, end.momentum_scale), "of the sum of |m v|");
+           std::max(start.momentum_scale, end.momentum_scale), end.momentum_rounding, "of the sum of |m v|");
   if (start.angular_momentum && end.angular_momentum)
     vector("angular momentum", dimensions::angular_momentum, *start.angular_momentum, *end.angular_momentum,
-           std::max(start.angular_momentum_scale, end.angular_momentum_scale), "of the sum of |m r x v|");
+           std::max(start.angular_momentum_scale, end.angular_momentum_scale), end.angular_momentum_rounding,
+           "of the sum of |m r x v|");
   if (start.momentum && !(start.isolated && end.isolated))
     lines.emplace_back("  (walls, heat baths, influences from outside or without reaction change momenta)");
   return lines;
