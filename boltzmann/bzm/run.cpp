@@ -1,15 +1,19 @@
 // bzm run, bzm resume, bzm check: a scenario becomes a folder of results.
 #include <boltzmann/bzm/commands.hpp>
 #include <boltzmann/bzm/run_recording.hpp>
+#include <boltzmann/bzm/waiting_line.hpp>
 #include <boltzmann/core/team.hpp>
 #include <boltzmann/files/checkpoint.hpp>
 #include <boltzmann/files/folder_lock.hpp>
+#include <boltzmann/recording/planned_run.hpp>
 #include <boltzmann/sweep/run_sweep.hpp>
 
 #include <fmt/format.h>
 
 #include <cstdio>
 #include <filesystem>
+#include <optional>
+#include <string>
 
 namespace boltzmann::bzm {
 namespace {
@@ -30,6 +34,12 @@ ScenarioText read_on_all(std::string const& name) {
   team().on_first([&] { text = read_scenario(name); });
   for (auto* part : {&text.text, &text.file, &text.name, &text.folder}) team().broadcast(*part);
   return text;
+}
+
+std::string calculating(ScenarioSimulation const& scenario) {
+  std::size_t particles = 0;
+  for (auto const& ensemble : scenario.ensembles) particles += ensemble->size();
+  return fmt::format("calculating the influences on {} particles at the start", particles);
 }
 
 int status_of(SweepReport const& report, std::string const& folder) {
@@ -57,6 +67,8 @@ int run(RunOptions const& options) {
   refuse_in_window(options.hours, options.window);
   ScenarioText const text = read_on_all(options.scenario);
   Overrides const& overrides = options.overrides;
+  std::optional<WaitingLine> waiting(!options.quiet);
+  waiting->doing("placing particles");
   auto scenario = load_scenario(text, overrides);
   std::string const folder = options.out.empty() ? "results/" + scenario->name : options.out;
   FolderLock const lock = lock_folder(folder);
@@ -64,6 +76,7 @@ int run(RunOptions const& options) {
     throw Error("'" + folder +
                 "' already holds a sweep; go on with it by bzm resume, choose another folder, or replace "
                 "it with --force");
+  if (scenario->sweep) waiting.reset();
   if (scenario->sweep && options.window.open) {
     if (!options.quiet) fmt::print("this scenario is a sweep; the window shows the first of its runs\n");
     Overrides first = overrides;
@@ -74,8 +87,10 @@ int run(RunOptions const& options) {
     return status_of(run_sweep({text, overrides, folder, options.quiet, options.force}, wall, std::move(scenario)),
                      folder);
   auto const recording = make_recording(*scenario, folder, {.overwrite = options.force});
+  if (waiting) waiting->doing(calculating(*scenario));
   scenario->simulation->check();
   recording->check();
+  waiting.reset();
   if (holds_sweep(folder)) remove_sweep(folder);
   if (!options.quiet) print_heading(*scenario, folder);
   return run_recording(*scenario, *recording, scenario->steps, scenario->steps, options.quiet, wall, options.window);
@@ -125,12 +140,17 @@ int resume(ResumeOptions const& options) {
 
 int check(std::string const& name, Overrides const& overrides) {
   ScenarioText const text = read_scenario(find_scenario(name));
+  std::optional<WaitingLine> waiting(true);
+  waiting->doing("placing particles");
   auto const scenario = load_scenario(text, overrides);
+  waiting->doing(calculating(*scenario));
   auto const recording =
       make_recording(*scenario, std::filesystem::temp_directory_path().string(), {.overwrite = true});
   scenario->simulation->check();
   recording->check();
+  waiting.reset();
   print_warnings(*scenario->simulation, {.quiet = true});
+  for (auto const& line : planned_warnings(*recording, scenario->steps)) fmt::print(stderr, "{}\n", line);
   std::size_t particles = 0, bytes = 0;
   for (auto const& scheme : scenario->schemes) bytes += scheme->bytes();  // now that lists and meshes are there
   for (auto const& ensemble : scenario->ensembles) {

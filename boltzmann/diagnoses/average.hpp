@@ -28,6 +28,7 @@ class Average final : public Diagnosis {
   Average(std::vector<Column> const& before, Options const& options);
 
   std::vector<Column> columns() const override;
+  double since() const { return since_; }
   /// `values` begins with the time and those of all diagnoses before.
   void measure(Sample const& sample, std::vector<double>& values) override;
   std::vector<GatheredTable> tables() const override;

@@ -20,6 +20,7 @@ class Diffusion final : public Diagnosis {
   Diffusion(std::vector<AnyEnsemble const*> const& available, std::vector<std::string> const& names, double since);
 
   std::vector<Column> columns() const override;
+  double since() const { return since_; }
   void check(Box const& box) const override { refuse_shear(box, "diffusion"); }
   /// Error if the number of particles has changed.
   void measure(Sample const& sample, std::vector<double>& values) override;

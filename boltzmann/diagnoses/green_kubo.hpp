@@ -39,6 +39,7 @@ class GreenKubo final : public Diagnosis {
   GreenKubo(std::vector<AnyEnsemble const*> const& available, Options const& options);
 
   std::vector<Column> columns() const override;
+  Options const& options() const { return options_; }
   void check(Box const& box) const override { refuse_shear(box, "green-kubo"); }
   void measure(Sample const& sample, std::vector<double>& values) override;
   bool needs_energies() const override { return options_.quantity == Transport::heat_conductivity; }

@@ -32,6 +32,7 @@ class HeatFlux final : public Diagnosis {
   HeatFlux(std::vector<AnyEnsemble const*> const& ensembles, HeatFluxOptions const& options);
 
   std::vector<Column> columns() const override;
+  double since() const { return options_.since; }
   /// Error if the axis has no walls with different temperatures.
   void measure(Sample const& sample, std::vector<double>& values) override;
   std::vector<double> state() const override { return {count_, mean_, squares_}; }

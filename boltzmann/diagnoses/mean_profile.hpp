@@ -34,6 +34,7 @@ class MeanProfile final : public Diagnosis {
   MeanProfile(std::vector<AnyEnsemble const*> const& available, Options options);
 
   std::vector<Column> columns() const override;
+  double since() const { return options_.since; }
   /// Error where the axis is open and nobody says from where to where.
   void check(Box const& box) const override;
   void measure(Sample const& sample, std::vector<double>& values) override;

@@ -38,6 +38,7 @@ class RadialDistribution final : public Diagnosis {
   RadialDistribution(std::vector<AnyEnsemble const*> const& available, Options options);
 
   std::vector<Column> columns() const override;
+  double since() const { return options_.since; }
   /// Error for an axis that is open at an end, regions, or distances for which there is no room.
   void check(Box const& box) const override;
   void measure(Sample const& sample, std::vector<double>& values) override;

@@ -44,6 +44,7 @@ class StructureFactor final : public Diagnosis {
   StructureFactor(std::vector<AnyEnsemble const*> const& available, Options options);
 
   std::vector<Column> columns() const override;
+  double since() const { return options_.since; }
   /// Error if an axis is not periodic, or there are more wave vectors than one can sum.
   void check(Box const& box) const override;
   void measure(Sample const& sample, std::vector<double>& values) override;

@@ -30,6 +30,7 @@ class TimeCorrelation : public Diagnosis {
  public:
   using Options = TimeCorrelationOptions;
 
+  Options const& options() const { return options_; }
   bool follows() const final { return true; }
   void check(Box const& box) const final { refuse_shear(box, "velocity-autocorrelation and mean-square-displacement"); }
   /// Error if the number of particles has changed, or looks are not at equal times.
@@ -71,7 +72,6 @@ class TimeCorrelation : public Diagnosis {
   std::vector<double> lags(Followed const& followed) const;
   std::vector<double> means(Followed const& followed) const;
   double interval() const { return interval_; }
-  Options const& options() const { return options_; }
 
  private:
   void note_time(Sample const& sample);

@@ -1,5 +1,6 @@
 // Running a recording to its end, and the table that is printed then.
 #include <boltzmann/core/team.hpp>
+#include <boltzmann/recording/planned_run.hpp>
 #include <boltzmann/recording/recording.hpp>
 #include <boltzmann/recording/run_loop.hpp>
 #include <boltzmann/simulation/conserved.hpp>
@@ -64,6 +65,9 @@ RunReport run_with_progress(Recording& recording, std::uint64_t steps, ProgressO
   Attending const observer(
       simulation, simulation.observe_when([first = simulation.step()](std::int64_t step) { return step == first; },
                                           [&start](Simulation const& now) { start = conserved(now); }));
+  if (options.warnings && simulation.step() == 0)  // else earlier parts of the run count, too
+    for (auto const& line : planned_warnings(recording, static_cast<std::int64_t>(steps)))
+      fmt::print(stderr, "{}\n", line);
   double const before = recording.seconds();
   RunReport report;
   try {
@@ -96,6 +100,8 @@ RunReport run_with_progress(Recording& recording, std::uint64_t steps, ProgressO
   };
   std::string const whose = options.warnings ? "" : recording.folder() + ": ";
   for (auto const& line : drift_warnings(start, end, recording.units())) tell(whose + line);
+  for (auto const& barostat : simulation.barostats())
+    for (auto const& line : barostat->warnings(recording.units())) tell(whose + line);
   if (auto const& minimised = simulation.minimised(); minimised && !minimised->converged)
     tell(fmt::format("{}warning: the minimum before the run was not reached: {}", whose,
                      text(*minimised, recording.units())));

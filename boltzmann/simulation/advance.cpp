@@ -10,8 +10,16 @@
 #include <limits>
 
 namespace boltzmann {
-
 namespace {
+
+/// The cure where smooth particles need shorter steps than at the start; empty where there are none.
+std::string advice_on_substeps(std::vector<Scheme*> const& schemes, bool divided, bool dissipates) {
+  bool const sound =
+      std::any_of(schemes.begin(), schemes.end(), [](Scheme const* s) { return std::isfinite(s->sound_step()); });
+  if (!sound || divided) return "";
+  if (dissipates) return "; take a shorter step";  // whose random numbers are of whole steps
+  return "; let steps be divided where they must: substeps = { courant = 0.4 } in [run] (divide_steps() in C++)";
+}
 
 /// A field with a rate of its own that is not finite; null: there is none, or something else is not.
 Field const* driven_field_not_finite(AnyEnsemble const& ensemble, std::size_t i) {
@@ -109,9 +117,10 @@ void Simulation::advance(double dt, std::vector<Dissipation*> const& dissipation
   for (auto const* scheme : schemes_)
     if (std::abs(dt) > max_courant * scheme->sound_step() && !(substeps_ && substeps_->courant))
       throw PhysicsFailure(
-          fmt::format("sound has become so fast that the step {} is far above the longest that makes "
-                      "sense, {}",
-                      told_time(std::abs(dt)), told_time(scheme->sound_step())));
+          fmt::format("the step has become too long: with the sound of now the longest that makes sense is {}, and the "
+                      "step is {}{}",
+                      told_time(scheme->sound_step()), told_time(std::abs(dt)),
+                      advice_on_substeps(schemes_, substeps_.has_value(), !dissipations_.empty())));
 }
 
 /// By the stages of the integrators.
@@ -324,17 +333,17 @@ void Simulation::check_move(Part const& part, LargestMove const& move) const {
 std::string Simulation::advice() const {
   auto const told = [&](double number) { return units().text(number, dimensions::time, 3); };
   double const of_speeds = collisions_followed * collision_step_, safe = std::min(of_speeds, force_step_);
+  if (auto const divided = advice_on_substeps(schemes_, substeps_.has_value(), !dissipations_.empty());
+      !divided.empty())
+    return divided;
   if (std::abs(step_size_) > of_speeds)
-    return fmt::format(
-        "; at the speeds of the start a step above {} does not follow collisions, and forces need a shorter one; a "
-        "tenth is safe to begin with: take a step below {}",
-        told(collision_step_), told(safe));
+    return fmt::format("; take a step below {}: a longer one does not follow collisions at the speeds of the start",
+                       told(safe));
   if (std::abs(step_size_) > safe)
     return fmt::format("; the forces of the start are too large for it: take a step below {}", told(safe));
   if (std::isfinite(safe))
-    return fmt::format(
-        "; the speeds and forces of the start allow the step ({}), those since then do not: begin with half",
-        told(safe));
+    return fmt::format("; the speeds and forces of the start allow this step, later ones do not: take a step below {}",
+                       told(0.5 * std::abs(step_size_)));
   return "; take a shorter step";
 }
 
