@@ -13,7 +13,7 @@ constexpr std::size_t moves_to_judge = 50;
 constexpr double least_accepted = 0.1;   // of all moves
 constexpr double times_to_judge = 20;    // relaxation times of the box
 constexpr double errors_to_warn = 5;     // standard errors of the mean
-constexpr double strain_to_warn = 0.02;  // of the volume, that the difference of pressures makes
+constexpr double strain_to_warn = 0.05;  // of the volume, that the difference of pressures makes
 
 struct Mean {
   double value = 0, error = 0;
