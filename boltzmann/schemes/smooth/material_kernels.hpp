@@ -195,8 +195,9 @@ void add(Influence& to, Influence const& more) {
   for (std::size_t c = 0; c < sizeof(Influence) / sizeof(double); ++c) sum[c] += x[c];
 }
 
-/// What the force pass of solids reads of a particle, and the rates that go with it. Fields that lag are completed here:
-/// forces, and the fluxes that are returned, are of those. The pressure is corrected only where the density evolves.
+/// What the force pass of solids reads of a particle, and the rates that go with it. Fields that lag are completed
+/// here: forces, and the fluxes that are returned, are of those. The pressure is corrected only where the density
+/// evolves.
 template <class M, class P>
 Fluxes<P::dimension> find_strength(M const& material, MaterialTask const& task, std::size_t k, P& p,
                                    Vector<P::dimension> const& temperature_gradient, typename P::Influence& influence) {
