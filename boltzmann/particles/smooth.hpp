@@ -85,7 +85,7 @@ struct Solid : Smooth<D, Real> {
   template <class Member>
   static constexpr bool lags(Member member) {
     if constexpr (std::is_same_v<Member, decltype(&Solid::density)>)
-      return member == static_cast<Member>(&Solid::density);
+      return member == static_cast<Member>(&Solid::density) || member == static_cast<Member>(&Solid::specific_energy);
     else
       return std::is_same_v<Member, decltype(&Solid::stress)> || std::is_same_v<Member, decltype(&Solid::damage)> ||
              std::is_same_v<Member, decltype(&Solid::hourglass_strain)>;

@@ -127,7 +127,7 @@ struct SolidForcePass {
     Real const of_q = detail::hourglass_weight(q, p, distance) * (1.0 + dot(q.tilt, r));
     auto const from_p = dot(r, p.correction) * (slope_p * q.volume) - p.moment * of_p;
     auto const from_q = dot(r, q.correction) * (slope_q * p.volume) + q.moment * of_q;
-    return SolidForce{from_p + from_q, dot(from_p, q.velocity - p.velocity)};
+    return SolidForce{from_p + from_q, dot(from_p, q.middle_velocity - p.middle_velocity)};
   }
 };
 
