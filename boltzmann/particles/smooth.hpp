@@ -73,19 +73,19 @@ struct Solid : Smooth<D, Real> {
                            ///< (plane, uniaxial strain): its trace over three axes is zero.
   Real plastic_strain;     ///< equivalent, accumulated
   Real damage;             ///< 0 whole, 1 broken: no tension, no shear
-  Vector<D, Real> hourglass_strain;  ///< how far it has left the linear motion of its neighbours, in spacings; in 1D 0
+  Vector<D, Real> hourglass_strain;  ///< how far it has left the linear motion of its neighbours, in spacings
 
   // Inside a step of leap-frog only, else 0. Strain follows from velocities as positions do. Leap-frog is stable if it
-  // advances stress like positions: by the velocities in the middle of the step, before the forces at its end. The scheme
-  // finds rates from velocity - kick, and forces from fields that it has advanced by lag times these rates. Leap-frog
-  // leaves that to it where the influence says so (is_completed).
+  // advances stress like positions: by the velocities in the middle of the step, before the forces at its end. The
+  // scheme finds rates from velocity - kick, and forces from fields that it has advanced by lag times these rates.
+  // Leap-frog leaves that to it where the influence says so (is_completed).
   Vector<D, Real> kick;  ///< what the velocity is ahead of the middle of the step
   Real lag;              ///< the time by which fields that lag() are behind the others
   /// True for the fields that follow from strain.
   template <class Member>
   static constexpr bool lags(Member member) {
     if constexpr (std::is_same_v<Member, decltype(&Solid::density)>)
-      return member == static_cast<Member>(&Solid::density);
+      return member == static_cast<Member>(&Solid::density) || member == static_cast<Member>(&Solid::specific_energy);
     else
       return std::is_same_v<Member, decltype(&Solid::stress)> || std::is_same_v<Member, decltype(&Solid::damage)> ||
              std::is_same_v<Member, decltype(&Solid::hourglass_strain)>;

@@ -195,21 +195,23 @@ void add(Influence& to, Influence const& more) {
   for (std::size_t c = 0; c < sizeof(Influence) / sizeof(double); ++c) sum[c] += x[c];
 }
 
-/// What the force pass of solids reads of a particle, and the rates that go with it. Fields that lag are completed here:
-/// forces, and the fluxes that are returned, are of those. The pressure is corrected only where the density evolves.
+/// What the force pass of solids reads of a particle, and the rates that go with it. Fields that lag are completed
+/// here: forces, and the fluxes that are returned, are of those. The pressure is corrected only where the density
+/// evolves.
 template <class M, class P>
 Fluxes<P::dimension> find_strength(M const& material, MaterialTask const& task, std::size_t k, P& p,
-                                   Vector<P::dimension> const& temperature_gradient, typename P::Influence& influence) {
+                                   Gradients<P::dimension> const& predicted, typename P::Influence& influence) {
   constexpr int D = P::dimension;
   auto const& sums = reinterpret_cast<SolidSum<D, double> const*>(task.solid_sums)[k];
   double const volume = p.mass / p.density;
   auto const l = correction_of(sums.spread);
-  Gradients<D> const gradients{dot(l, sums.gradient), temperature_gradient};
+  Gradients<D> const gradients{dot(l, sums.gradient), predicted.temperature};
   double const crowd = sums.weight / (task.solid[row_block * k] * HourglassStencil::crowd<D>);
   double const scale = HourglassStencil::scale<D> / max(crowd, 1.0);
   auto const tilt = tilt_of(sums);
   typename P::Influence rates{};
-  rates.hourglass_rate = (sums.velocity - dot(tilt, sums.near_gradient)) * scale;
+  auto const rates_of_hourglass = (sums.velocity - dot(tilt, sums.near_gradient)) * scale;
+  rates.hourglass_rate = rates_of_hourglass;
   if (task.continuity) rates.density_rate = -p.density * trace(gradients.velocity);
   if constexpr (has_rates<M, P>) {
     typename P::Influence first = rates;  // for the middle of the step
@@ -219,13 +221,37 @@ Fluxes<P::dimension> find_strength(M const& material, MaterialTask const& task, 
   rates.is_completed = 1;
   add(influence, rates);
 
-  P const now = advanced(p, rates, p.lag);
-  Fluxes<D> fluxes{};
+  auto const strength = [&](P const& state, Tensor<D>& whole, Vector<D>& moment) {
+    Fluxes<D> fluxes{};
+    if constexpr (has_fluxes<M, P>) fluxes = material.fluxes(state, gradients);
+    whole = fluxes.pressure + Tensor<D>::identity() * material.state(state).pressure;
+    moment = state.hourglass_strain * (volume * material.shear_stiffness(state));
+    return fluxes;
+  };
+  Tensor<D> whole, whole_in_middle;
+  Vector<D> moment, moment_in_middle;
+  P middle = advanced(p, rates, p.lag / 2);
+  strength(p, whole, moment);
+  double const power = dot(moment, rates_of_hourglass) - volume * contraction(transpose(whole), gradients.velocity);
+  middle.specific_energy += power * p.lag / (2 * p.mass);
+  strength(middle, whole_in_middle, moment_in_middle);
+  P now = advanced(p, rates, p.lag);
+  now.specific_energy += (dot(moment_in_middle, rates_of_hourglass) -
+                          volume * contraction(transpose(whole_in_middle), gradients.velocity)) *
+                         p.lag / p.mass;
+  auto const fluxes = strength(now, whole, moment);
   Tensor<D> correction{};
-  if (task.continuity) correction = l * material.state(now).pressure - Tensor<D>::identity() * p.pressure;
-  if constexpr (has_fluxes<M, P>) fluxes = material.fluxes(now, gradients);
+  if (task.continuity) correction = dot(l, whole - fluxes.pressure) - Tensor<D>::identity() * p.pressure;
   correction = (correction + dot(l, fluxes.pressure) - fluxes.pressure) * volume;
-  auto const moment = now.hourglass_strain * (volume * material.shear_stiffness(now));
+  if (p.lag != 0) {
+    // Passes find the work of the stress at the end of the step, partly with the velocities there. What counts is that
+    // in the middle.
+    auto const raw = fluxes.pressure + Tensor<D>::identity() * p.pressure;
+    influence.heating += dot(moment_in_middle - moment, rates_of_hourglass) -
+                         volume * contraction(transpose(whole_in_middle), gradients.velocity) +
+                         volume * contraction(transpose(raw), predicted.velocity) +
+                         contraction(correction, sums.gradient);
+  }
   double values[2 * D + D * D], *value = values;
   for (double const x : moment.component) *value++ = x * scale;
   for (double const x : tilt.component) *value++ = x;
@@ -274,7 +300,7 @@ void find_fluxes(void const* the_material, MaterialTask const& task, std::size_t
     };
     [[maybe_unused]] auto& influence = reinterpret_cast<typename P::Influence*>(task.influence)[i];
     if constexpr (is_solid<M, P>) {
-      write(find_strength(material, task, k, p, gradients.temperature, influence));
+      write(find_strength(material, task, k, p, gradients, influence));
     } else {
       if constexpr (has_fluxes<M, P>) write(material.fluxes(p, gradients));
       if constexpr (has_rates<M, P>) material.rates(static_cast<P const&>(p), gradients, influence);

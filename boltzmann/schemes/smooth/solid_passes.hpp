@@ -1,18 +1,18 @@
 // Strength of solids as passes over pairs: gradients that are exact for linear motion, and hourglass control.
 //
-// Correction. The velocity gradient of smooth particles is too small where neighbours are missing, at free surfaces. With
-// r = x_j - x_i, V = m / rho and s_ij = -V_j w'(r) / r:
+// Correction. The velocity gradient of smooth particles is too small where neighbours are missing, at free surfaces.
+// With r = x_j - x_i, V = m / rho and s_ij = -V_j w'(r) / r:
 //
 //   G_i = Sum_j s_ij r (v_j - v_i),   B_i = Sum_j s_ij r r,   the corrected gradient is L_i . G_i with L = 1 / B
 //
-// (Bonet and Lok, Comput. Methods Appl. Mech. Eng. 180, 97, 1999), and forces are made of L . P in place of P, so that they
-// do the work P : (L . G). L is limited where B is nearly singular, in splinters.
+// (Bonet and Lok, Comput. Methods Appl. Mech. Eng. 180, 97, 1999), and forces are made of L . P in place of P, so that
+// they do the work P : (L . G). L is limited where B is nearly singular, in splinters.
 //
 // Hourglass control. Neither G nor the forces see motion that alternates from one particle to the next, so that rows of
 // a solid would slide past each other freely. The control is that of Flanagan and Belytschko (Int. J. Numer. Methods
 // Eng. 17, 679, 1981) in its elastic form, with the neighbourhood of a particle in place of a finite element;
-// Ganzenmueller (Comput. Methods Appl. Mech. Eng. 286, 87, 2015) measures the same departure from linear motion, pair by
-// pair. With the spacing d = V^(1/D):
+// Ganzenmueller (Comput. Methods Appl. Mech. Eng. 286, 87, 2015) measures the same departure from linear motion, pair
+// by pair. With the spacing d = V^(1/D):
 //
 //   c_ij = (a / d_i) phi(|r| / d_i) (1 - b_i . r),   b_i so that Sum_j c_ij r = 0
 //   dh_i/dt = Sum_j c_ij (v_i - v_j) + W_i . h_i - relaxation      h: the hourglass strain
@@ -60,16 +60,16 @@ template <int D, class Real>
 SolidSum(Tensor<D, Real>, Tensor<D, Real>, Real, Vector<D, Real>, Vector<D, Real>, Tensor<D, Real>, Tensor<D, Real>)
     -> SolidSum<D, Real>;
 
-/// phi(x) = (1 - x / reach)^4, and a. Both are chosen so that plane shear waves in which neighbouring planes of particles
-/// move against each other have the frequency sqrt(G / rho) k, for the square, hexagonal, simple cubic and face-centred
-/// cubic lattice at once. The guide has the deviations.
+/// phi(x) = (1 - x / reach)^4, and a. Both are chosen so that plane shear waves in which neighbouring planes of
+/// particles move against each other have the frequency sqrt(G / rho) k, for the square, hexagonal, simple cubic and
+/// face-centred cubic lattice at once. The guide has the deviations.
 struct HourglassStencil {
   template <int D>
   static constexpr double reach = D == 2 ? 2.35 : 2.45;  ///< in spacings
   template <int D>
   static constexpr double scale = D == 2 ? 4.846 : 2.778;
-  /// Above the largest sum of phi over the neighbours in a lattice. More of it is scaled down to it, so that the control
-  /// is not stiffer where particles are crowded.
+  /// Above the largest sum of phi over the neighbours in a lattice. More of it is scaled down to it, so that the
+  /// control is not stiffer where particles are crowded.
   template <int D>
   static constexpr double crowd = D == 2 ? 0.6 : 1.3;
 };
@@ -127,7 +127,7 @@ struct SolidForcePass {
     Real const of_q = detail::hourglass_weight(q, p, distance) * (1.0 + dot(q.tilt, r));
     auto const from_p = dot(r, p.correction) * (slope_p * q.volume) - p.moment * of_p;
     auto const from_q = dot(r, q.correction) * (slope_q * p.volume) + q.moment * of_q;
-    return SolidForce{from_p + from_q, dot(from_p, q.velocity - p.velocity)};
+    return SolidForce{from_p + from_q, dot(from_p, q.middle_velocity - p.middle_velocity)};
   }
 };
 
