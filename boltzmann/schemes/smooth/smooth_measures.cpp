@@ -34,8 +34,9 @@ Tensor<3> SmoothScheme::stress() {
   Tensor<3> total{};
   SortedCopy const& copy = hood_->copy(*points_);
   int const D = box().dimension();
-  std::size_t const matter = copy.blocks() + 1;
   std::array<ExactSum, 9> sums;
+  Recipe const recipe = this->recipe();
+  if (recipe.transport) add_viscous_stress(recipe, sums);
   for (auto const& loaded : loaded_) {
     if (!loaded->kernels.needs_gradients) continue;
     AnyEnsemble const& ensemble = *loaded->ensemble;
@@ -49,7 +50,9 @@ Tensor<3> SmoothScheme::stress() {
         std::size_t number = 1;  // behind the shear switch
         for (int a = 0; a < D; ++a)
           for (int b = a; b < D; ++b, ++number) {
-            double const flux = copy.block(matter + number / row_block)[row_block * k + number % row_block];
+            double const flux =
+                loaded->task
+                    .matter[number / row_block * loaded->task.block_stride + row_block * k + number % row_block];
             sums[static_cast<std::size_t>(3 * a + b)] += p[mass] * p[density] * flux / by_density2;
           }
       }
@@ -68,8 +71,9 @@ void SmoothScheme::gather_particles() {
 }
 
 EnergyAndVirial SmoothScheme::measure(double time) {
-  bool const all_is_pressure =
-      std::none_of(loaded_.begin(), loaded_.end(), [](auto const& loaded) { return loaded->kernels.needs_gradients; });
+  bool const all_is_pressure = std::none_of(loaded_.begin(), loaded_.end(), [](auto const& loaded) {
+    return loaded->kernels.needs_gradients || loaded->kernels.has_transport;
+  });
   if (all_is_pressure)
     complete(time);
   else
@@ -187,7 +191,7 @@ std::vector<std::string> SmoothScheme::warnings(double step_size) {
       fmt::format("the step is {:.3g} of the Courant step {}", part, spoken_units().text(longest, dimensions::time));
   std::vector<std::string> lines{part > 1 ? "warning: " + line + ", beyond which sound outruns the steps" : line};
   if (has_temperature(box()) &&
-      std::none_of(loaded_.begin(), loaded_.end(), [](auto const& loaded) { return loaded->kernels.needs_gradients; }))
+      std::none_of(loaded_.begin(), loaded_.end(), [](auto const& loaded) { return loaded->kernels.conducts; }))
     lines.emplace_back("warning: a wall has a temperature, but no material conducts heat: it does nothing");
   for (auto const& loaded : loaded_) {
     AnyEnsemble const& ensemble = *loaded->ensemble;

@@ -8,13 +8,17 @@
 #include <boltzmann/schemes/smooth/force_on.hpp>
 #include <boltzmann/schemes/smooth/material_kernels.hpp>
 #include <boltzmann/schemes/smooth/smooth_kernels.hpp>
+#include <boltzmann/schemes/smooth/transport_kernels.hpp>
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace boltzmann {
+
+class ExactSum;
 
 /// How the density of a particle is known.
 enum class DensityFrom {
@@ -135,15 +139,21 @@ class SmoothScheme final : public Scheme {
     bool own_ranges = false;  // not one range for all
     bool viscous = false;     // artificially
     bool gradients = false;   // are needed
+    bool transport = false;   // there are viscosities or conductivities
+    bool conducts = false;    // there are conductivities
     bool uniform = false;     // P / rho^2 is the same for all: forces need no density
     SmoothPasses const* passes = nullptr;
     PairKernel rates = nullptr;  // of the passes
+    TransportPasses const* transport_passes = nullptr;
   };
   Recipe recipe() const;
   void set_tasks(Recipe const& recipe, SortedCopy& copy);
   void find_places(bool looking = false);
   void find(Until until, bool looking = false);
+  void find_motion(Recipe const& recipe, SortedCopy& copy);
+  void add_transport(Recipe const& recipe);
   Tensor<3> stress();
+  void add_viscous_stress(Recipe const& recipe, std::array<ExactSum, 9>& sums);
   /// Of each particle: its grad-h factor, and two ranges that are too short and too long.
   struct RangeBracket {
     std::vector<double> factor, shorter, longer;
