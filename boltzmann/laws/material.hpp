@@ -33,7 +33,7 @@ struct Fluxes {
 /// Newton's viscosity and Fourier's conduction. The trace is shared among the D dimensions there are: the stress is 2
 /// shear_viscosity (E - (div v / D) I) + bulk_viscosity (div v) I, E the symmetric part of the velocity gradient; the
 /// heat flux is -conductivity grad T.
-struct Transport {
+struct TransportCoefficients {
   double shear_viscosity = 0;
   double bulk_viscosity = 0;
   double conductivity = 0;
@@ -42,7 +42,7 @@ struct Transport {
 // A material is a plain struct with some of these functions of one particle p (of the user's class, doubles):
 //
 //   State state(p)                       needed: pressure, temperature, sound speed from p.density, p.specific_energy
-//   Transport transport(p)               viscosity and conduction
+//   TransportCoefficients transport(p)               viscosity and conduction
 //   bool conducts()                      false: the conductivity is zero always
 //   Fluxes<D> fluxes(p, gradients)       strength, and other stress that is no Newtonian viscosity. Gradients do not see
 //                                        velocities that alternate from particle to particle, so such a stress does not
@@ -80,7 +80,7 @@ inline constexpr bool has_fluxes = requires(M const& material, P const& p, Gradi
 };
 template <class M, class P>
 inline constexpr bool has_transport = requires(M const& material, P const& p) {
-  { material.transport(p) } -> std::convertible_to<Transport>;
+  { material.transport(p) } -> std::convertible_to<TransportCoefficients>;
 };
 template <class M, class P>
 inline constexpr bool has_rates = requires(M const& material, P const& p, Gradients<P::dimension> const& gradients,

@@ -379,7 +379,7 @@ Smooth<D> smooth(double density, double energy) {
 
 TEST(Newtonian, HasTheCoefficientsOfTransport) {  // tests/schemes/transport_test.cpp: what the scheme makes of them
   Newtonian<IdealGas> const fluid{{1.4}, 0.3, 0.7, 0.2};
-  Transport const transport = fluid.transport(smooth<3>(2, 1));
+  TransportCoefficients const transport = fluid.transport(smooth<3>(2, 1));
   EXPECT_EQ(transport.shear_viscosity, 0.3);
   EXPECT_EQ(transport.bulk_viscosity, 0.7);
   EXPECT_EQ(transport.conductivity, 0.2);

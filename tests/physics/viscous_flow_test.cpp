@@ -293,7 +293,7 @@ TEST(ViscousFlow, BothViscositiesDampSound) {
 struct Conductor {
   double conductivity;
   State state(auto const& p) const { return {.temperature = p.specific_energy, .sound_speed = 1}; }
-  Transport transport(auto const&) const { return {.conductivity = conductivity}; }
+  TransportCoefficients transport(auto const&) const { return {.conductivity = conductivity}; }
   double diffusivity(auto const& p) const { return conductivity / p.density; }
 };
 

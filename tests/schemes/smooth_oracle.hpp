@@ -85,7 +85,7 @@ Tensor<D> local_rotation(std::vector<std::tuple<double, Vector<D>, Vector<D>>> c
 template <int D, class M, class Each>
 void add_transport(std::vector<Point<D>>& points, M const& material, Each const& each, std::vector<Rates<D>>& rates) {
   auto const of = [&](Point<D> const& a) {
-    Transport t = material.transport(a.p);
+    TransportCoefficients t = material.transport(a.p);
     if (D == 1) t.shear_viscosity = 0.5 * t.bulk_viscosity;
     return t;
   };

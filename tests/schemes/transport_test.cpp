@@ -17,9 +17,9 @@ namespace {
 
 /// No pressure: all that acts is viscosity and conduction.
 struct Bare {
-  Transport coefficients;
+  TransportCoefficients coefficients;
   State state(auto const& p) const { return {.temperature = p.specific_energy, .sound_speed = 1}; }
-  Transport transport(auto const&) const { return coefficients; }
+  TransportCoefficients transport(auto const&) const { return coefficients; }
 };
 
 template <int D>
@@ -52,7 +52,8 @@ std::unique_ptr<Ensemble<Smooth<D>>> lattice(double range, int half, Field const
 }
 
 template <int D>
-SmoothInfluence<D, double> at_the_origin(Ensemble<Smooth<D>>& matter, Transport const& transport, WeightShape shape) {
+SmoothInfluence<D, double> at_the_origin(Ensemble<Smooth<D>>& matter, TransportCoefficients const& transport,
+                                         WeightShape shape) {
   SmoothScheme scheme(Box(everywhere<D>(-100), everywhere<D>(100), Boundary::open), shape);
   scheme.material(matter, Bare{transport});
   scheme.density_from(DensityFrom::continuity);
@@ -64,7 +65,7 @@ SmoothInfluence<D, double> at_the_origin(Ensemble<Smooth<D>>& matter, Transport 
 double some(int a, int b = 0, int c = 0) { return std::sin(1.3 + 2.1 * a + 3.7 * b + 5.9 * c); }
 
 template <int D>
-void expect_exact_coefficients(double range, Transport const& transport, WeightShape shape) {
+void expect_exact_coefficients(double range, TransportCoefficients const& transport, WeightShape shape) {
   Tensor<D> gradient{};    // [a][b] = d v_b / d x_a
   double second[D][D][D];  // v_c = sum of second[c][a][b] x_a x_b
   for (int c = 0; c < D; ++c)
@@ -79,7 +80,7 @@ void expect_exact_coefficients(double range, Transport const& transport, WeightS
   auto const strain = symmetric_part(gradient);
   double const eta = D == 1 ? 0 : transport.shear_viscosity, zeta = transport.bulk_viscosity;
   double const heat = 2 * eta * contraction(strain, strain) + (zeta - 2 * eta / D) * square(trace(strain));
-  EXPECT_NEAR(heated.heating, heat, 1e-12 * (eta + zeta)) << D << "D, range " << range;
+  EXPECT_NEAR(heated.heating, heat, 1e-11 * (eta + zeta)) << D << "D, range " << range;
   EXPECT_LT(magnitude(heated.force), 1e-12 * (eta + zeta));
   // Quadratic: the force eta laplacian v + (eta (1 - 2/D) + zeta) grad div v, the heat kappa laplacian T.
   auto quadratic = lattice<D>(range, half, [&](auto& p) {
@@ -103,8 +104,9 @@ void expect_exact_coefficients(double range, Transport const& transport, WeightS
 
 TEST(Transport, CoefficientsAreExactOnLattices) {
   for (auto const shape : {WeightShape::lucy, WeightShape::wendland, WeightShape::quintic_spline})
-    for (Transport const& transport : {Transport{0.7, 0, 0.3}, Transport{0.7, 0.2, 0.3}, Transport{0.1, 2, 0.3},
-                                       Transport{0, 0.5, 0}, Transport{0.5, 5. / 3 * 0.5, 0.1}}) {
+    for (TransportCoefficients const& transport :
+         {TransportCoefficients{0.7, 0, 0.3}, TransportCoefficients{0.7, 0.2, 0.3}, TransportCoefficients{0.1, 2, 0.3},
+          TransportCoefficients{0, 0.5, 0}, TransportCoefficients{0.5, 5. / 3 * 0.5, 0.1}}) {
       expect_exact_coefficients<1>(3, transport, shape);
       expect_exact_coefficients<2>(2.4, transport, shape);
       expect_exact_coefficients<2>(3, transport, shape);
@@ -118,7 +120,7 @@ struct Drop {
   Ensemble<Smooth<D>> oil{"oil", 120}, water{"water", 130};
   SmoothScheme scheme{Box(everywhere<D>(-50), everywhere<D>(50), Boundary::open), WeightShape::wendland};
 
-  Drop(Transport const& of_oil, Transport const& of_water, double spread) {
+  Drop(TransportCoefficients const& of_oil, TransportCoefficients const& of_water, double spread) {
     fill(oil, 5, spread);
     fill(water, 6, spread);
     scheme.material(oil, Bare{of_oil});
@@ -148,7 +150,7 @@ Tensor<D> moment(Vector<D> const& r, Vector<D> const& force) {
 }
 
 template <int D>
-void expect_conservation(Transport const& oil, Transport const& water, double spread) {
+void expect_conservation(TransportCoefficients const& oil, TransportCoefficients const& water, double spread) {
   Drop<D> drop(oil, water, spread);
   drop.scheme.calculate();
   Vector<D> momentum{};
@@ -168,16 +170,16 @@ void expect_conservation(Transport const& oil, Transport const& water, double sp
   ASSERT_GT(powers, 1);
   EXPECT_LT(magnitude(momentum), 1e-14 * forces);
   EXPECT_LT(std::abs(energy), 2e-14 * powers);
-  // In 3D rotations are found from a matrix that is moved by 1e-10 of itself.
-  EXPECT_LT(std::sqrt(contraction(angular, angular)), (D == 3 ? 1e-9 : 1e-13) * moments) << D << "D";
+  // In 3D rotations are found from a matrix that is moved by 1e-13 of itself.
+  EXPECT_LT(std::sqrt(contraction(angular, angular)), 1e-11 * moments) << D << "D";
 }
 
 TEST(Transport, MomentumAngularMomentumAndEnergyAreConserved) {
   for (double const spread : {0.0, 0.6})
-    for (auto const& [oil, water] : {std::pair{Transport{2, 0, 0}, Transport{0.1, 0.3, 0}},
-                                     {Transport{2, 9, 0}, Transport{2, 0, 0}},
-                                     {Transport{2, 0.5, 0}, Transport{0, 0, 0}},
-                                     {Transport{1, 0, 4}, Transport{1, 0, 0.5}}}) {
+    for (auto const& [oil, water] : {std::pair{TransportCoefficients{2, 0, 0}, TransportCoefficients{0.1, 0.3, 0}},
+                                     {TransportCoefficients{2, 9, 0}, TransportCoefficients{2, 0, 0}},
+                                     {TransportCoefficients{2, 0.5, 0}, TransportCoefficients{0, 0, 0}},
+                                     {TransportCoefficients{1, 0, 4}, TransportCoefficients{1, 0, 0.5}}}) {
       expect_conservation<2>(oil, water, spread);
       expect_conservation<3>(oil, water, spread);
     }
@@ -196,8 +198,8 @@ void expect_free_rotation(double spread) {
     }
   drop.scheme.calculate();
   drop.each([&](auto const&, auto const& influence) {
-    EXPECT_LT(magnitude(influence.force), D == 3 ? 1e-8 : 1e-12);
-    EXPECT_LT(std::abs(influence.heating), D == 3 ? 1e-8 : 1e-12);
+    EXPECT_LT(magnitude(influence.force), 1e-10);
+    EXPECT_LT(std::abs(influence.heating), 1e-10);
   });
 }
 
@@ -236,7 +238,7 @@ void expect_damping(double range, WeightShape shape) {
   double const pi = std::numbers::pi;
   auto const alternate = [](double x) { return std::abs(std::fmod(x, 2)) < 0.5 ? 1.0 : -1.0; };
   int const half = static_cast<int>(2 * range) + 2;
-  Transport const transport{0.7, 0.1, 0.4};
+  TransportCoefficients const transport{0.7, 0.1, 0.4};
   auto rows = lattice<D>(range, half, [&](auto& p) { p.velocity[0] = alternate(p.position[1]); });
   EXPECT_LT(at_the_origin(*rows, transport, shape).force[0], -0.3 * 0.7 * pi * pi) << D << "D, range " << range;
   auto diagonal = lattice<D>(range, half, [&](auto& p) {

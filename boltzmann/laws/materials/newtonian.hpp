@@ -40,7 +40,7 @@ struct Newtonian {
   }
 
   template <class P>
-  Transport transport(P const&) const {
+  TransportCoefficients transport(P const&) const {
     static_assert(!has_transport<EquationOfState, P>, "one viscosity: Newtonian goes outside");
     return {shear_viscosity, bulk_viscosity, conductivity};
   }

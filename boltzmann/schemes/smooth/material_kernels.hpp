@@ -88,7 +88,7 @@ bool is_held(MaterialTask const& task, P const& p) {
 }
 
 template <class M, class P>
-Transport transport_of(M const& material, P const& p) {
+TransportCoefficients transport_of(M const& material, P const& p) {
   if constexpr (has_transport<M, P>)
     return material.transport(p);
   else
@@ -98,7 +98,7 @@ Transport transport_of(M const& material, P const& p) {
 /// The viscosity against relative velocities of pairs. In 1D there is no shear: half the bulk viscosity is that of pairs
 /// which expand.
 template <int D>
-double pair_viscosity(Transport const& transport) {
+double pair_viscosity(TransportCoefficients const& transport) {
   return D == 1 ? 0.5 * transport.bulk_viscosity : transport.shear_viscosity;
 }
 
@@ -119,7 +119,7 @@ void find_rotation(MotionSum<D, double> const& sums, double* rotation) {
     // which nothing turns.
     double const trace = inertia[0] + inertia[3] + inertia[5], scale = trace > 0 ? 1 / trace : 0;
     double const xx = inertia[0] * scale, xy = inertia[1] * scale, xz = inertia[2] * scale, yy = inertia[3] * scale,
-                 yz = inertia[4] * scale, zz = inertia[5] * scale, least = 1e-10;
+                 yz = inertia[4] * scale, zz = inertia[5] * scale, least = 1e-13;
     Tensor<3> const matrix{xx + yy + least, yz, -xz, yz, xx + zz + least, xy, -xz, xy, yy + zz + least};
     auto const solution = dot(inverse(matrix), Vector<3>{sums.turning[0], sums.turning[1], sums.turning[2]} * scale);
     for (int n = 0; n < 3; ++n) rotation[n] = solution[n];
@@ -156,7 +156,7 @@ void find_state(void const* the_material, MaterialTask const& task, std::size_t 
     fluid[2] = state.temperature;
     fluid[3] = state.sound_speed;
     if (task.transport) {
-      Transport const transport = transport_of(material, p);
+      TransportCoefficients const transport = transport_of(material, p);
       double* const values = task.transport + row_block * k;
       values[0] = p.mass / p.density;
       values[1] = resistance(pair_viscosity<D>(transport));
