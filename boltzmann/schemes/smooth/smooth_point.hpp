@@ -55,7 +55,7 @@ struct SmoothTransport : SmoothFluid<D, Real> {
   Real rotation[3];           ///< normaliser * W of the local rotation, v = W r: xy, xz, yz; in 2D xy alone
 };
 /// Instead of infinity, whose products with zero would not be numbers.
-inline constexpr double unlimited_resistance = 1e150;
+inline constexpr double unlimited_resistance = 1e100;
 
 /// And what gradients make of it: fluxes beyond the pressure, divided by rho^2 as all of them.
 template <int D, class Real = double>

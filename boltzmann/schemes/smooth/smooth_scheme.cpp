@@ -398,7 +398,7 @@ SmoothScheme::Recipe SmoothScheme::recipe() const {
   recipe.viscous = viscosity_.alpha > 0 || viscosity_.beta > 0;
   recipe.gradients = viscosity_.balsara || any([](auto const& kernels) { return kernels.needs_gradients; });
   recipe.transport = any([](auto const& kernels) { return kernels.has_transport; });
-  recipe.conducts = any([](auto const& kernels) { return kernels.conducts; });
+  recipe.fused = recipe.transport && !recipe.gradients;
   recipe.uniform = !recipe.own_ranges && !recipe.viscous && !recipe.gradients && !recipe.transport &&
                    density_from_ == DensityFrom::summation &&
                    !any([&](auto const& kernels) { return !kernels.constant_push || kernels.push != push; });
@@ -407,6 +407,9 @@ SmoothScheme::Recipe SmoothScheme::recipe() const {
   bool const by_volume = density_from_ == DensityFrom::volumes;
   recipe.rates = recipe.uniform     ? passes.uniform
                  : recipe.gradients ? (by_volume ? passes.all_by_volume : passes.all)
+                 : recipe.fused     ? (by_volume        ? passes.fluid_by_volume
+                                       : recipe.viscous ? passes.fluid_viscous
+                                                        : passes.fluid)
                  : by_volume        ? passes.viscous_by_volume
                  : recipe.viscous   ? passes.viscous
                                     : passes.pressure;
@@ -510,7 +513,7 @@ void SmoothScheme::find(Until until, bool looking) {
   run_pass(recipe.rates, recipe.uniform ? D : D + 2, sums_);
   for (auto& loaded : loaded_) loaded->task.rates = sums_.data();
   run_material(&MaterialKernels::rates);
-  if (recipe.transport) add_transport(recipe);
+  if (recipe.transport && !recipe.fused) add_transport(recipe);
 }
 
 void SmoothScheme::add_influences(double time) {

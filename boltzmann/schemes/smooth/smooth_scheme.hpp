@@ -140,7 +140,7 @@ class SmoothScheme final : public Scheme {
     bool viscous = false;     // artificially
     bool gradients = false;   // are needed
     bool transport = false;   // there are viscosities or conductivities
-    bool conducts = false;    // there are conductivities
+    bool fused = false;       // the pass of rates has them
     bool uniform = false;     // P / rho^2 is the same for all: forces need no density
     SmoothPasses const* passes = nullptr;
     PairKernel rates = nullptr;  // of the passes

@@ -21,7 +21,7 @@ void SmoothScheme::find_motion(Recipe const& recipe, SortedCopy& copy) {
 
 void SmoothScheme::add_transport(Recipe const& recipe) {
   std::size_t const components = static_cast<std::size_t>(box().dimension()) + 1;
-  run_pass(recipe.conducts ? recipe.transport_passes->all : recipe.transport_passes->viscous, components, sums_);
+  run_pass(recipe.transport_passes->rates, components, sums_);
   for (auto& loaded : loaded_) loaded->task.rates = sums_.data();
   run_material(&MaterialKernels::transport);
 }

@@ -17,8 +17,8 @@ template <int W, class P, class Law>
 template <int W, int D, bool variable>
 constexpr TransportPasses transport_passes() {
   using P = SmoothTransport<D>;
-  return {transport_pass<W, P, MotionPass<variable>>, transport_pass<W, P, TransportPass<variable, false>>,
-          transport_pass<W, P, TransportPass<variable, true>>, transport_pass<W, P, StressPass<variable>>};
+  return {transport_pass<W, P, MotionPass<variable>>, transport_pass<W, P, TransportPass<variable>>,
+          transport_pass<W, P, StressPass<variable>>};
 }
 
 template <int W, int D>

@@ -8,10 +8,9 @@ namespace boltzmann {
 
 /// `law` is a PassParameters. Sums are stored in the order of rows.
 struct TransportPasses {
-  PairKernel motion = nullptr;   ///< MotionSum
-  PairKernel viscous = nullptr;  ///< TransportSum, of viscosity alone
-  PairKernel all = nullptr;      ///< and of conduction
-  PairKernel stress = nullptr;   ///< StressSum
+  PairKernel motion = nullptr;  ///< MotionSum
+  PairKernel rates = nullptr;   ///< TransportSum
+  PairKernel stress = nullptr;  ///< StressSum
 };
 struct TransportKernels {
   TransportPasses same;      ///< all particles have one range

@@ -81,7 +81,7 @@ template <int D, class Real>
 struct ViscousPair {
   Vector<D, Real> force;  ///< on p, by its volume
   Real heating;           ///< p's own part of the work, likewise
-  Real weight;            ///< V_j K
+  Real conduction;        ///< heat by difference of temperatures
 };
 
 template <bool variable, class P>
@@ -90,12 +90,15 @@ template <bool variable, class P>
   constexpr int D = P::dimension;
   auto const r = q.position - p.position, v = q.velocity - p.velocity;
   Real const weight = transport_weight<variable>(p, q, dot(r, r), parameters);
-  Real const drag = 4.0 / (p.inverse_viscosity + q.inverse_viscosity);  // twice the harmonic mean
+  // Twice the harmonic means, 4 / (sum of inverses), by one division.
+  Real const against_shear = p.inverse_viscosity + q.inverse_viscosity,
+             against_heat = p.inverse_conductivity + q.inverse_conductivity,
+             both = 4.0 / (against_shear * against_heat), drag = both * against_heat;
   auto const from_p = v * p.normaliser - rotation_times<D>(p.rotation, r);
   auto const from_q = v * q.normaliser - rotation_times<D>(q.rotation, r);
   return ViscousPair<D, Real>{
       (from_p + from_q) * (weight * drag) + r * (weight * (p.expansion_push + q.expansion_push)),
-      weight * (drag * dot(from_p, v) + p.expansion_push * dot(r, v)), weight};
+      weight * (drag * dot(from_p, v) + p.expansion_push * dot(r, v)), weight * both * against_shear};
 }
 
 }  // namespace detail
@@ -132,18 +135,30 @@ struct MotionPass {
   }
 };
 
-template <bool variable, bool conducts>
+template <bool variable>
 struct TransportPass {
   PassParameters parameters;
 
   template <class P>
   auto operator()(P const& p, P const& q) const {
     auto const pair = detail::viscous_pair<variable>(p, q, parameters);
-    auto heating = pair.heating;
-    if constexpr (conducts)
-      heating +=
-          pair.weight * 4.0 / (p.inverse_conductivity + q.inverse_conductivity) * (q.temperature - p.temperature);
-    return TransportSum{pair.force, heating};
+    return TransportSum{pair.force, pair.heating + pair.conduction * (q.temperature - p.temperature)};
+  }
+};
+
+/// All rates of a fluid in one pass.
+template <class Shape, bool variable, RateTerms terms, bool volumes = false>
+struct FluidPass {
+  PassParameters parameters;
+
+  template <class P>
+  auto operator()(P const& p, P const& q) const {
+    using Real = std::remove_cvref_t<decltype(p.mass)>;
+    auto const rates = RatePass<Shape, variable, terms, volumes>{parameters}(p, q);
+    auto const transport = TransportPass<variable>{parameters}(p, q);
+    Real const by_density = 1.0 / p.density;
+    return RateSum{rates.acceleration + transport.force * by_density, rates.heating + transport.heating * by_density,
+                   rates.compression};
   }
 };
 
