@@ -161,7 +161,7 @@ int main() {
   line("  with artificial viscosity", rate<3>(32, neighbours_58, ideal, 60, {.viscosity = true}), 0);
   line("  with variable ranges and artificial viscosity",
        rate<3>(32, neighbours_58, ideal, 60, {.viscosity = true, .variable = true}), 0);
-  line("  with viscosity and conduction (gradients, three passes)", rate<3>(32, neighbours_58, newtonian, 60, {}), 0);
+  line("  with viscosity and conduction", rate<3>(32, neighbours_58, newtonian, 60, {}), 0);
   line("2D gas, range 3 spacings, 31,684 particles", rate<2>(178, 3, ideal, 100, {}), 2.5e6);
   line("2D, P = rho^2/2, range 6 spacings (113 neighbours), one pass", rate<2>(128, 6, QuadraticGas{}, 100, {}), 4e6);
   double const one = rate<3>(64, neighbours_58, ideal, 12, {}),

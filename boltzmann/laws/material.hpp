@@ -30,11 +30,25 @@ struct Fluxes {
   Vector<D> heat;      ///< Q of Eq 3
 };
 
+/// Newton's viscosity and Fourier's conduction. The trace is shared among the D dimensions there are: the stress is 2
+/// shear_viscosity (E - (div v / D) I) + bulk_viscosity (div v) I, E the symmetric part of the velocity gradient; the
+/// heat flux is -conductivity grad T.
+struct TransportCoefficients {
+  double shear_viscosity = 0;
+  double bulk_viscosity = 0;
+  double conductivity = 0;
+};
+
 // A material is a plain struct with some of these functions of one particle p (of the user's class, doubles):
 //
 //   State state(p)                       needed: pressure, temperature, sound speed from p.density, p.specific_energy
-//   Fluxes<D> fluxes(p, gradients)       viscosity, conduction, strength
-//   double diffusivity(p)                of momentum or heat, the larger, in length^2 / time: limits the step; with fluxes
+//   TransportCoefficients transport(p)               viscosity and conduction
+//   bool conducts()                      false: the conductivity is zero always
+//   Fluxes<D> fluxes(p, gradients)       strength, and other stress that is no Newtonian viscosity. Gradients do not see
+//                                        velocities that alternate from particle to particle, so such a stress does not
+//                                        damp them
+//   double diffusivity(p)                of momentum or heat, the larger, in length^2 / time: limits the step; with
+//                                        transport or fluxes
 //   void rates(p, gradients, influence)  rates of further fields of p's class (the stress of a solid)
 //   double shear_stiffness(p)            shear modulus that is left, for the hourglass control of solids
 //   double energy(density)               barotropic: the specific energy is this function of the density, and does not
@@ -64,6 +78,10 @@ concept Material = requires(M const& material, P const& p) {
 template <class M, class P>
 inline constexpr bool has_fluxes = requires(M const& material, P const& p, Gradients<P::dimension> const& gradients) {
   material.fluxes(p, gradients);
+};
+template <class M, class P>
+inline constexpr bool has_transport = requires(M const& material, P const& p) {
+  { material.transport(p) } -> std::convertible_to<TransportCoefficients>;
 };
 template <class M, class P>
 inline constexpr bool has_rates = requires(M const& material, P const& p, Gradients<P::dimension> const& gradients,

@@ -377,51 +377,14 @@ Smooth<D> smooth(double density, double energy) {
   return p;
 }
 
-TEST(Newtonian, CouetteFlowHasTheShearStress) {
-  // v_x = a y: P_xy = P_yx = -eta a, nothing else.
+TEST(Newtonian, HasTheCoefficientsOfTransport) {  // tests/schemes/transport_test.cpp: what the scheme makes of them
   Newtonian<IdealGas> const fluid{{1.4}, 0.3, 0.7, 0.2};
-  Gradients<3> gradients{};
-  gradients.velocity[1][0] = 2.5;
-  gradients.temperature = {1, -2, 4};
-  auto const fluxes = fluid.fluxes(smooth<3>(2, 1), gradients);
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j)
-      EXPECT_NEAR(fluxes.pressure[i][j], (i == 0 && j == 1) || (i == 1 && j == 0) ? -0.75 : 0, 1e-15);
-  EXPECT_NEAR(fluxes.heat[0], -0.2, 1e-15);
-  EXPECT_NEAR(fluxes.heat[1], 0.4, 1e-15);
-  EXPECT_NEAR(fluxes.heat[2], -0.8, 1e-15);
-}
-
-template <int D>
-void expect_newton() {
-  double const shear = 0.3, bulk = 0.7;
-  Newtonian<IdealGas> const fluid{{1.4}, shear, bulk, 0};
-  auto const p = smooth<D>(2, 1);
-  // The same expansion along every axis meets the bulk viscosity alone: P = -eta_v div v.
-  Gradients<D> even{Tensor<D>::identity() * 0.5, {}};
-  auto const dilation = fluid.fluxes(p, even).pressure;
-  for (int i = 0; i < D; ++i)
-    for (int j = 0; j < D; ++j) EXPECT_NEAR(dilation[i][j], i == j ? -bulk * 0.5 * D : 0, 1e-15);
-  // Along one axis: -(lambda + 2 eta), -lambda across, lambda = eta_v - 2 eta / D.
-  Gradients<D> along{};
-  along.velocity[0][0] = 1;
-  auto const pull = fluid.fluxes(p, along).pressure;
-  double const lambda = bulk - 2 * shear / D;
-  for (int i = 0; i < D; ++i) EXPECT_NEAR(pull[i][i], i == 0 ? -(lambda + 2 * shear) : -lambda, 1e-15);
-  // A rigid rotation meets nothing.
-  if constexpr (D > 1) {
-    Gradients<D> turning{};
-    turning.velocity[0][1] = 3;
-    turning.velocity[1][0] = -3;
-    auto const nothing = fluid.fluxes(p, turning).pressure;
-    EXPECT_EQ(contraction(nothing, nothing), 0);
-  }
-}
-
-TEST(Newtonian, DilationAndPullInEveryDimension) {
-  expect_newton<1>();
-  expect_newton<2>();
-  expect_newton<3>();
+  TransportCoefficients const transport = fluid.transport(smooth<3>(2, 1));
+  EXPECT_EQ(transport.shear_viscosity, 0.3);
+  EXPECT_EQ(transport.bulk_viscosity, 0.7);
+  EXPECT_EQ(transport.conductivity, 0.2);
+  EXPECT_TRUE(fluid.conducts());
+  EXPECT_FALSE((Newtonian<IdealGas>{{1.4}, 0.3, 0.7}.conducts()));
 }
 
 TEST(Newtonian, DiffusivityIsTheLargestOfItsKinds) {
@@ -437,11 +400,12 @@ TEST(Newtonian, IsOtherwiseTheMaterialUnderIt) {
   static_assert(is_barotropic<Water> && !is_barotropic<Newtonian<IdealGas>>);
   static_assert(!has_constant_push<Newtonian<QuadraticGas>>, "its forces need densities");
   static_assert(!has_rates<Water, Smooth<2>> && has_rates<Newtonian<Elastic<Tait>>, Solid<2>>);
-  static_assert(Material<Water, Smooth<2>> && has_fluxes<Water, Smooth<3>> && !has_fluxes<Tait, Smooth<3>>);
+  static_assert(Material<Water, Smooth<2>> && has_transport<Water, Smooth<3>> && !has_transport<Tait, Smooth<3>>);
+  static_assert(!has_fluxes<Water, Smooth<3>>, "it needs no gradients");
   Water const water{{1000, 1480}, 1e-3};
   EXPECT_EQ(water.energy(1010), Tait({1000, 1480}).energy(1010));
   EXPECT_EQ((Newtonian<IdealGas>{{1.4, 3}}.specific_heat()), 3);
-  // Over a solid the stresses add up.
+  // Over a solid it leaves the strength alone.
   Newtonian<Elastic<Tait>> const mud{{{1, 10}, 5}, 0.5, 0, 0};
   Solid<2> p{};
   p.density = 1;
@@ -450,8 +414,9 @@ TEST(Newtonian, IsOtherwiseTheMaterialUnderIt) {
   Gradients<2> gradients{};
   gradients.velocity[1][0] = 3;
   auto const pressure = mud.fluxes(p, gradients).pressure;
-  EXPECT_NEAR(pressure[0][1], -2 - 1.5, 1e-15);
+  EXPECT_NEAR(pressure[0][1], -2, 1e-15);
   EXPECT_NEAR(pressure[0][0], -1, 1e-15);
+  EXPECT_EQ(mud.transport(p).shear_viscosity, 0.5);
   EXPECT_EQ(mud.diffusivity(p), 0.5);
 }
 

@@ -5,6 +5,9 @@
 #include <boltzmann/laws/weight.hpp>
 #include <boltzmann/schemes/smooth/smooth_scheme.hpp>
 
+#include <cmath>
+#include <numbers>
+#include <tuple>
 #include <vector>
 
 namespace boltzmann::oracle {
@@ -31,6 +34,8 @@ struct Point {
   Tensor<D> stress{};  // the whole pressure tensor
   Vector<D> heat{};
   double shear_switch = 1, factor = 1;
+  Tensor<D> rotation{};  // of the local motion
+  double normaliser = 0, expansion_push = 0;
 };
 
 template <int D>
@@ -38,6 +43,89 @@ struct Rates {
   Vector<D> force{};
   double heating = 0, compression = 0, range_rate = 0;
 };
+
+/// (1 - r^2 / range^2)^4 with second moments of one: Sum V K r_a r_b = delta_ab.
+template <int D>
+double transport_kernel(double r, double range) {
+  double const area = 2 * std::pow(std::numbers::pi, 0.5 * D) / std::tgamma(0.5 * D);
+  double const moment = 0.5 * std::tgamma(0.5 * D + 1) * std::tgamma(5) / std::tgamma(0.5 * D + 6);
+  return r < range ? D / (area * moment) * std::pow(1 - square(r / range), 4) / std::pow(range, D + 2) : 0;
+}
+
+/// The antisymmetric W that makes Sum w |v - W r|^2 least, by the normal equations for unit rotations.
+template <int D>
+Tensor<D> local_rotation(std::vector<std::tuple<double, Vector<D>, Vector<D>>> const& neighbours) {
+  std::vector<Tensor<D>> units;
+  for (int a = 0; a < D; ++a)
+    for (int b = a + 1; b < D; ++b) {
+      Tensor<D> unit{};
+      unit[a][b] = 1;
+      unit[b][a] = -1;
+      units.push_back(unit);
+    }
+  std::size_t const n = units.size();
+  std::vector<std::vector<double>> rows(n, std::vector<double>(n + 1, 0.0));
+  for (auto const& [w, r, v] : neighbours)
+    for (std::size_t i = 0; i < n; ++i) {
+      for (std::size_t j = 0; j < n; ++j) rows[i][j] += w * dot(dot(units[i], r), dot(units[j], r));
+      rows[i][n] += w * dot(dot(units[i], r), v);
+    }
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t k = 0; k < n; ++k)
+      if (k != i) {
+        double const factor = rows[k][i] / rows[i][i];
+        for (std::size_t j = 0; j <= n; ++j) rows[k][j] -= factor * rows[i][j];
+      }
+  Tensor<D> rotation{};
+  for (std::size_t i = 0; i < n; ++i) rotation += units[i] * (rows[i][n] / rows[i][i]);
+  return rotation;
+}
+
+/// Viscosity and conduction, of particles that all have some (schemes/smooth/transport_passes.hpp has the equations).
+template <int D, class M, class Each>
+void add_transport(std::vector<Point<D>>& points, M const& material, Each const& each, std::vector<Rates<D>>& rates) {
+  auto const of = [&](Point<D> const& a) {
+    TransportCoefficients t = material.transport(a.p);
+    if (D == 1) t.shear_viscosity = 0.5 * t.bulk_viscosity;
+    return t;
+  };
+  auto const mean = [](double x, double y) { return 2 * x * y / (x + y); };
+  auto const weight = [&](Point<D> const& a, Point<D> const& b) {
+    double const r = magnitude(b.p.position - a.p.position);
+    return b.p.mass / b.p.density * 0.5 * (transport_kernel<D>(r, a.p.range) + transport_kernel<D>(r, b.p.range));
+  };
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    auto& a = points[i];
+    double approach = 0, spread = 0, resistance = 0;
+    std::vector<std::tuple<double, Vector<D>, Vector<D>>> neighbours;
+    each(i, [&](Point<D> const& b) {
+      auto const r = b.p.position - a.p.position, v = b.p.velocity - a.p.velocity;
+      double const w = weight(a, b), eta = mean(of(a).shear_viscosity, of(b).shear_viscosity);
+      if (w == 0) return;
+      neighbours.push_back({w * eta, r, v});
+      approach += w * dot(r, v);
+      spread += w * norm2(r);
+      resistance += w * norm2(r) / eta;
+    });
+    a.rotation = local_rotation<D>(neighbours);
+    double const bounded = std::max(spread, 0.5 * D);
+    a.normaliser = D / bounded;
+    a.expansion_push = square(a.normaliser) * (of(a).bulk_viscosity - 2.0 / D * bounded / resistance) * approach;
+  }
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    auto const& a = points[i];
+    double const volume = a.p.mass / a.p.density;
+    each(i, [&](Point<D> const& b) {
+      auto const r = b.p.position - a.p.position, v = b.p.velocity - a.p.velocity;
+      double const w = volume * weight(a, b), eta = mean(of(a).shear_viscosity, of(b).shear_viscosity);
+      double const kappa = mean(a.normaliser * of(a).conductivity, b.normaliser * of(b).conductivity);
+      auto const from_a = (v - dot(a.rotation, r)) * (2 * eta * a.normaliser) + r * a.expansion_push;
+      auto const from_b = (v - dot(b.rotation, r)) * (2 * eta * b.normaliser) + r * b.expansion_push;
+      rates[i].force += (from_a + from_b) * w;
+      rates[i].heating += w * (dot(from_a, v) + 2 * kappa * (b.p.temperature - a.p.temperature));
+    });
+  }
+}
 
 /// `images(point)` gives all copies of a particle that others see, the particle itself first; positions, velocities and
 /// so on of copies are found from the particle's each time it is called.
@@ -128,6 +216,7 @@ std::vector<Rates<D>> rates(std::vector<Point<D>>& points, M const& material, Se
     });
     if (s.adaptive && !s.held(a.p)) rate.range_rate = -a.p.range / (D * a.p.density) * a.factor * rate.compression;
   }
+  if constexpr (has_transport<M, Smooth<D>>) add_transport(points, material, each, result);
   return result;
 }
 

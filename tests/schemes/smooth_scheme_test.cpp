@@ -62,6 +62,8 @@ std::vector<oracle::Point<D>> copies(oracle::Point<D> const& point, Box const& b
             if (b != a) {
               image.stress[a][b] = -image.stress[a][b];
               image.stress[b][a] = -image.stress[b][a];
+              image.rotation[a][b] = -image.rotation[a][b];
+              image.rotation[b][a] = -image.rotation[b][a];
             }
         } else {
           continue;

@@ -93,7 +93,8 @@ struct Elastic {
 
   template <class P>
   Fluxes<P::dimension> fluxes(P const& p, Gradients<P::dimension> const&) const {
-    static_assert(!has_fluxes<EquationOfState, P>, "viscosity goes outside: Newtonian<Elastic<EquationOfState>>");
+    static_assert(!has_fluxes<EquationOfState, P> && !has_transport<EquationOfState, P>,
+                  "viscosity goes outside: Newtonian<Elastic<EquationOfState>>");
     return {p.stress * (-whole(p) * within_yield(equivalent_stress(p.stress))), {}};
   }
   /// Strength diffuses nothing.

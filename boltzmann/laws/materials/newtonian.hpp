@@ -40,20 +40,15 @@ struct Newtonian {
   }
 
   template <class P>
-  Fluxes<P::dimension> fluxes(P const& p, Gradients<P::dimension> const& gradients) const {
-    constexpr int D = P::dimension;
-    auto const strain_rate = symmetric_part(gradients.velocity);
-    auto const identity = Tensor<D>::identity();
-    double const divergence = trace(strain_rate);
-    Fluxes<D> fluxes{
-        strain_rate * (-2 * shear_viscosity) + identity * ((2 * shear_viscosity / D - bulk_viscosity) * divergence),
-        gradients.temperature * -conductivity};
-    if constexpr (has_fluxes<EquationOfState, P>) {
-      auto const more = material.fluxes(p, gradients);
-      fluxes.pressure += more.pressure;
-      fluxes.heat += more.heat;
-    }
-    return fluxes;
+  TransportCoefficients transport(P const&) const {
+    static_assert(!has_transport<EquationOfState, P>, "one viscosity: Newtonian goes outside");
+    return {shear_viscosity, bulk_viscosity, conductivity};
+  }
+  bool conducts() const { return conductivity > 0; }
+  template <class P>
+  Fluxes<P::dimension> fluxes(P const& p,
+                              Gradients<P::dimension> const& gradients) const requires has_fluxes<EquationOfState, P> {
+    return material.fluxes(p, gradients);
   }
 
   /// The largest of: shear_viscosity / rho, of vortices; (bulk_viscosity + 2 (1 - 1/D) shear_viscosity) / rho, of

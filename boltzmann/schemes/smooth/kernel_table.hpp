@@ -6,6 +6,7 @@
 #include <boltzmann/schemes/pair/over_list.hpp>
 #include <boltzmann/schemes/smooth/passes.hpp>
 #include <boltzmann/schemes/smooth/smooth_kernels.hpp>
+#include <boltzmann/schemes/smooth/transport_passes.hpp>
 
 namespace boltzmann {
 namespace detail {
@@ -26,10 +27,14 @@ constexpr SmoothPasses smooth_passes() {
   passes.all = smooth_pass<W, SmoothMatter<D>, RatePass<Shape, variable, RateTerms::all>>;
   passes.viscous_by_volume = smooth_pass<W, SmoothFluid<D>, RatePass<Shape, variable, RateTerms::viscous, true>>;
   passes.all_by_volume = smooth_pass<W, SmoothMatter<D>, RatePass<Shape, variable, RateTerms::all, true>>;
+  passes.fluid_viscous = smooth_pass<W, SmoothTransport<D>, FluidPass<Shape, variable, RateTerms::viscous>>;
+  passes.fluid_by_volume = smooth_pass<W, SmoothTransport<D>, FluidPass<Shape, variable, RateTerms::viscous, true>>;
   if constexpr (variable) {
     passes.pressure = passes.viscous;
+    passes.fluid = passes.fluid_viscous;
   } else {
     passes.pressure = smooth_pass<W, SmoothFluid<D>, RatePass<Shape, variable, RateTerms::pressure>>;
+    passes.fluid = smooth_pass<W, SmoothTransport<D>, FluidPass<Shape, variable, RateTerms::pressure>>;
     passes.uniform = smooth_pass<W, SmoothPlace<D>, UniformPass<Shape>>;
   }
   return passes;

@@ -3,7 +3,9 @@
 
 #include <boltzmann/laws/material.hpp>
 #include <boltzmann/particles/rows.hpp>
+#include <boltzmann/schemes/smooth/passes.hpp>
 #include <boltzmann/schemes/smooth/solid_passes.hpp>
+#include <boltzmann/schemes/smooth/transport_passes.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -28,12 +30,14 @@ struct MaterialTask {
   std::uint32_t const* order = nullptr;    ///< sorted row -> number of the particle among all
   std::uint32_t const* members = nullptr;  ///< the sorted rows of this ensemble; null: all
   double* fluid = nullptr;                 ///< SmoothFluid's block of sorted rows
+  double* transport = nullptr;             ///< SmoothTransport's first block; null: no pass reads it
   double* matter = nullptr;                ///< SmoothMatter's first block; null: no pass reads it
   double* solid = nullptr;                 ///< SmoothSolid's first block; null: no hourglass control
   std::size_t block_stride = 0;            ///< from one of its blocks to the next
   double const* density = nullptr;         ///< sums of the density pass; null: the density is the particle's own
   double const* gradients = nullptr;       ///< sums of the gradient pass
-  double const* rates = nullptr;           ///< sums of the rate pass
+  double const* motion = nullptr;          ///< sums of the motion pass
+  double const* rates = nullptr;           ///< sums of the rate pass, or of the transport pass
   double const* solid_sums = nullptr;      ///< of the passes of solids
   double* factor = nullptr;                ///< grad-h factor of each sorted row; null: all have one range
   bool adaptive = false;                   ///< ranges follow densities; else factors are 1
@@ -51,14 +55,16 @@ using MaterialKernel = void (*)(void const* material, MaterialTask const& task, 
 
 /// The kernels of a material for a class.
 struct MaterialKernels {
-  MaterialKernel state = nullptr;   ///< density and state, into the particles and SmoothFluid's block
-  MaterialKernel fluxes = nullptr;  ///< into SmoothMatter's blocks, and rates of further fields into the influence
-  MaterialKernel rates = nullptr;   ///< adds to the influence
-  double (*diffusivity)(void const* material, double const* particle) = nullptr;      ///< null: none
+  MaterialKernel state = nullptr;      ///< density and state, into the particles and SmoothFluid's block
+  MaterialKernel fluxes = nullptr;     ///< into SmoothMatter's blocks, and rates of further fields into the influence
+  MaterialKernel rates = nullptr;      ///< adds to the influence
+  MaterialKernel motion = nullptr;     ///< the local motion, into SmoothTransport's blocks
+  MaterialKernel transport = nullptr;  ///< adds to the influence
+  double (*diffusivity)(void const* material, double const* particle) = nullptr;  ///< null: none
   double (*shear_stiffness)(void const* material, double const* particle) = nullptr;  ///< null: none
   MaterialKernel cohesion = nullptr;     ///< into SmoothSolid's first block
   MaterialKernel solid_force = nullptr;  ///< adds the forces of the passes of solids to the influence
-  bool needs_gradients = false, barotropic = false, constant_push = false;
+  bool needs_gradients = false, has_transport = false, conducts = false, barotropic = false, constant_push = false;
   double push = 0;  ///< where it is constant
 };
 
@@ -90,6 +96,45 @@ bool is_held(MaterialTask const& task, P const& p) {
          (p.range <= task.shortest && wanted <= power<D>(task.shortest));
 }
 
+template <class M, class P>
+TransportCoefficients transport_of(M const& material, P const& p) {
+  if constexpr (has_transport<M, P>)
+    return material.transport(p);
+  else
+    return {};
+}
+
+/// The viscosity against relative velocities of pairs. In 1D there is no shear: half the bulk viscosity is that of pairs
+/// which expand.
+template <int D>
+double pair_viscosity(TransportCoefficients const& transport) {
+  return D == 1 ? 0.5 * transport.bulk_viscosity : transport.shear_viscosity;
+}
+
+inline double resistance(double conductance) {
+  return conductance > 1 / unlimited_resistance ? 1 / conductance : unlimited_resistance;
+}
+
+/// The rotation W that minimises Sum w |v - W r|^2: xy, xz, yz.
+template <int D>
+void find_rotation(MotionSum<D, double> const& sums, double* rotation) {
+  double const* const inertia = sums.inertia;
+  if constexpr (D == 1) {
+    rotation[0] = 0;
+  } else if constexpr (D == 2) {
+    rotation[0] = inertia[0] > 0 ? sums.turning[0] / inertia[0] : 0;
+  } else {
+    // The derivatives by W_ab vanish: a matrix of three numbers, singular only if all neighbours are on one line, about
+    // which nothing turns.
+    double const trace = inertia[0] + inertia[3] + inertia[5], scale = trace > 0 ? 1 / trace : 0;
+    double const xx = inertia[0] * scale, xy = inertia[1] * scale, xz = inertia[2] * scale, yy = inertia[3] * scale,
+                 yz = inertia[4] * scale, zz = inertia[5] * scale, least = 1e-13;
+    Tensor<3> const matrix{xx + yy + least, yz, -xz, yz, xx + zz + least, xy, -xz, xy, yy + zz + least};
+    auto const solution = dot(inverse(matrix), Vector<3>{sums.turning[0], sums.turning[1], sums.turning[2]} * scale);
+    for (int n = 0; n < 3; ++n) rotation[n] = solution[n];
+  }
+}
+
 template <class P, class M>
 void find_state(void const* the_material, MaterialTask const& task, std::size_t begin, std::size_t end) {
   constexpr int D = P::dimension;
@@ -119,6 +164,46 @@ void find_state(void const* the_material, MaterialTask const& task, std::size_t 
     fluid[1] = state.pressure / (p.density * p.density) * (task.factor ? task.factor[k] : 1);
     fluid[2] = state.temperature;
     fluid[3] = state.sound_speed;
+    if (task.transport) {
+      TransportCoefficients const transport = transport_of(material, p);
+      double* const values = task.transport + row_block * k;
+      values[0] = p.mass / p.density;
+      values[1] = resistance(pair_viscosity<D>(transport));
+      values[2] = resistance(transport.conductivity);
+    }
+  });
+}
+
+/// From the sums of the motion pass to what the transport pass reads. Where there are few neighbours (sprays), the
+/// normaliser is no more than twice that of a continuum, so that forces begin with zero at the edge of the range.
+template <class P, class M>
+void find_motion(void const* the_material, MaterialTask const& task, std::size_t begin, std::size_t end) {
+  constexpr int D = P::dimension;
+  M const& material = *static_cast<M const*>(the_material);
+  each_member<P>(task, begin, end, [&](std::size_t k, std::size_t, P& p) {
+    auto const& sums = reinterpret_cast<MotionSum<D, double> const*>(task.motion)[k];
+    double* const first = task.transport + row_block * k;
+    double* const second = first + task.block_stride;
+    double const spread = max(sums.spread, 0.5 * D), normaliser = D / spread, expansion = normaliser * sums.approach;
+    // Of the pairs: the part of the pair viscosity that opposes an even expansion, no more than they dissipate.
+    double const in_pairs = sums.resistance > 0 ? 2.0 / D * spread / sums.resistance : 0;
+    first[2] /= normaliser;
+    first[3] = normaliser * (transport_of(material, p).bulk_viscosity - in_pairs) * expansion;
+    second[0] = normaliser;
+    find_rotation(sums, second + 1);
+    for (int n = 0; n < sums.axes; ++n) second[1 + n] *= normaliser;
+  });
+}
+
+template <class P, class M>
+void add_transport(void const*, MaterialTask const& task, std::size_t begin, std::size_t end) {
+  constexpr int D = P::dimension;
+  each_member<P>(task, begin, end, [&](std::size_t k, std::size_t i, P& p) {
+    auto& influence = reinterpret_cast<typename P::Influence*>(task.influence)[i];
+    auto const& sums = reinterpret_cast<TransportSum<D, double> const*>(task.rates)[k];
+    double const volume = p.mass / p.density;
+    influence.force += sums.force * volume;
+    if constexpr (!is_barotropic<M>) influence.heating += sums.heating * volume;
   });
 }
 
@@ -339,6 +424,10 @@ MaterialKernels material_kernels(M const& material) {
   kernels.state = detail::find_state<P, M>;
   kernels.fluxes = detail::find_fluxes<P, M>;
   kernels.rates = detail::add_rates<P, M>;
+  kernels.motion = detail::find_motion<P, M>;
+  kernels.transport = detail::add_transport<P, M>;
+  kernels.has_transport = kernels.conducts = has_transport<M, P>;
+  if constexpr (requires { material.conducts(); }) kernels.conducts = material.conducts();
   if constexpr (requires(P const& p) { material.diffusivity(p); })
     kernels.diffusivity = [](void const* m, double const* particle) {
       return static_cast<M const*>(m)->diffusivity(static_cast<P const&>(*reinterpret_cast<Row<P> const*>(particle)));

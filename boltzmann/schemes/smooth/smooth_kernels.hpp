@@ -14,6 +14,7 @@ struct SmoothPasses {
   PairKernel uniform = nullptr;  ///< only where ranges are the same
   PairKernel pressure = nullptr, viscous = nullptr, all = nullptr;
   PairKernel viscous_by_volume = nullptr, all_by_volume = nullptr;
+  PairKernel fluid = nullptr, fluid_viscous = nullptr, fluid_by_volume = nullptr;  ///< with viscosity and conduction
 };
 
 struct SmoothKernels {

@@ -44,13 +44,38 @@ struct SmoothFluid : SmoothPlace<D, Real>, detail::Unread<detail::to_next_block<
   Real sound_speed;
 };
 
+/// And what viscosity and conduction read, two blocks: resistances, and the local motion that the motion pass finds.
+template <int D, class Real = double>
+struct SmoothTransport : SmoothFluid<D, Real> {
+  Real volume;                ///< mass / density
+  Real inverse_viscosity;     ///< 1 / shear viscosity; unlimited_resistance where there is none
+  Real inverse_conductivity;  ///< 1 / (normaliser * conductivity); likewise
+  Real expansion_push;        ///< what bulk viscosity makes of the local rate of expansion
+  Real normaliser;            ///< 1 / (sum of second moments of the kernel), 1 in a continuum
+  Real rotation[3];           ///< normaliser * W of the local rotation, v = W r: xy, xz, yz; in 2D xy alone
+};
+/// Instead of infinity, whose products with zero would not be numbers.
+inline constexpr double unlimited_resistance = 1e100;
+
 /// And what gradients make of it: fluxes beyond the pressure, divided by rho^2 as all of them.
 template <int D, class Real = double>
-struct SmoothMatter : SmoothFluid<D, Real> {
+struct SmoothMatter : SmoothTransport<D, Real> {
   Real shear_switch;             ///< Balsara's: 1 in compression, near 0 in shear
   Real stress[D * (D + 1) / 2];  ///< of the pressure tensor: xx, xy, xz, yy, yz, zz
   Vector<D, Real> heat;
 };
+
+/// An antisymmetric tensor, as SmoothTransport holds it, times a vector.
+template <int D, class Real>
+[[gnu::always_inline]] inline Vector<D, Real> rotation_times(Real const* rotation, Vector<D, Real> const& r) {
+  if constexpr (D == 1)
+    return {Real(0.0)};
+  else if constexpr (D == 2)
+    return {rotation[0] * r[1], -rotation[0] * r[0]};
+  else
+    return {rotation[0] * r[1] + rotation[1] * r[2], rotation[2] * r[2] - rotation[0] * r[0],
+            -rotation[1] * r[0] - rotation[2] * r[1]};
+}
 
 /// A symmetric tensor, as SmoothMatter holds it, times a vector.
 template <int D, class Real>

@@ -23,12 +23,15 @@ constexpr std::size_t pair_grain = 256;
 template <class Particle>
 constexpr std::size_t blocks_of = (sizeof(Particle) / sizeof(double) + row_block - 1) / row_block;
 
-/// What lies behind the places of points: a block of fluid, and blocks of matter.
+/// What lies behind the places of points: a block of fluid, blocks of transport, and blocks of matter.
 std::size_t place_blocks(int dimension) {
   return in_dimension(dimension, [](auto d) { return row_stride<SmoothPlace<d>> / row_block; });
 }
+std::size_t transport_blocks(int dimension) {
+  return in_dimension(dimension, [](auto d) { return blocks_of<SmoothTransport<d>> - blocks_of<SmoothFluid<d>>; });
+}
 std::size_t matter_blocks(int dimension) {
-  return in_dimension(dimension, [](auto d) { return blocks_of<SmoothMatter<d>> - blocks_of<SmoothFluid<d>>; });
+  return in_dimension(dimension, [](auto d) { return blocks_of<SmoothMatter<d>> - blocks_of<SmoothTransport<d>>; });
 }
 
 /// Behind those of matter.
@@ -37,12 +40,9 @@ std::size_t solid_blocks(int dimension) {
 }
 
 /// What each number of a point's row is, for its images.
-std::vector<ImageComponent> image_components(int dimension, bool matter, bool solid) {
+std::vector<ImageComponent> image_components(int dimension, std::size_t blocks) {
   return in_dimension(dimension, [&](auto d) {
     constexpr int D = d;
-    std::size_t const blocks = solid    ? blocks_of<SmoothSolid<D>>
-                               : matter ? blocks_of<SmoothMatter<D>>
-                                        : blocks_of<SmoothFluid<D>>;
     std::vector<ImageComponent> components(blocks * row_block, {ImageRule::same, 0, 0});
     std::size_t const fluid = blocks_of<SmoothPlace<D>> * row_block;
     for (int a = 0; a < D; ++a) {
@@ -50,12 +50,16 @@ std::vector<ImageComponent> image_components(int dimension, bool matter, bool so
       components[static_cast<std::size_t>(D + 1 + a)] = {ImageRule::velocity, a, 0};
     }
     components[fluid + 2] = {ImageRule::temperature, 0, 0};
-    if (!matter) return components;
-    std::size_t next = fluid + row_block + 1;
+    if (blocks == blocks_of<SmoothFluid<D>>) return components;
+    std::size_t next = fluid + 2 * row_block + 1;  // rotation
+    for (int a = 0; a < D; ++a)
+      for (int b = a + 1; b < D; ++b) components[next++] = {ImageRule::tensor, a, b};
+    if (blocks == blocks_of<SmoothTransport<D>>) return components;
+    next = blocks_of<SmoothTransport<D>> * row_block + 1;
     for (int a = 0; a < D; ++a)
       for (int b = a; b < D; ++b) components[next++] = {ImageRule::tensor, a, b};
     for (int a = 0; a < D; ++a) components[next++] = {ImageRule::heat_flux, a, 0};
-    if (!solid) return components;
+    if (blocks == blocks_of<SmoothMatter<D>>) return components;
     next = blocks_of<SmoothMatter<D>> * row_block + 3;
     for (int a = 0; a < D; ++a) components[next++] = {ImageRule::velocity, a, 0};
     next = (blocks_of<SmoothMatter<D>> + 2) * row_block;
@@ -102,6 +106,11 @@ SmoothKernelTable const& smooth_kernels_of(WeightShape shape) {
     return for_weight(
         shape, [](auto s) -> SmoothKernelTable const& { return smooth_kernels<decltype(set)::value, decltype(s)>(); });
   });
+}
+
+TransportKernelTable const& transport_kernels() {
+  return for_instruction_set(
+      [](auto set) -> TransportKernelTable const& { return transport_kernels<decltype(set)::value>(); });
 }
 
 Words<DensityFrom> const& density_from_words() {
@@ -303,12 +312,16 @@ void SmoothScheme::prepare(bool keep_lists) {
     throw Error("ranges that vary follow densities that are summed; density_from(DensityFrom::summation) has these");
   if (!hood_) {
     check_heating();
-    bool const matter = recipe().gradients, solid = recipe().solids;
+    Recipe const recipe = this->recipe();
+    std::size_t const further = recipe.solids      ? transport_blocks(dimension) + matter_blocks(dimension) + solid_blocks(dimension)
+                                : recipe.gradients ? transport_blocks(dimension) + matter_blocks(dimension)
+                                : recipe.transport ? transport_blocks(dimension)
+                                                   : 0;
     hood_ = std::make_unique<Neighbourhood>(box());
     members_of_build_ = 0;
     summed_.hold = false;
-    hood_->copy(*points_, 1 + (matter ? matter_blocks(dimension) : 0) + (solid ? solid_blocks(dimension) : 0))
-        .components(image_components(dimension, matter, solid));
+    SortedCopy& copy = hood_->copy(*points_, 1 + further);
+    copy.components(image_components(dimension, copy.blocks() + copy.extra_blocks()));
     hood_->add(*points_, *points_, vary ? room_to_grow * longest_ : longest_);
     hood_->skin(skin_ >= 0 ? skin_ : skin_of_range * hood_->cutoff(0));
     hood_->divide(division_, threads());
@@ -401,7 +414,9 @@ SmoothScheme::Recipe SmoothScheme::recipe() const {
   recipe.viscous = viscosity_.alpha > 0 || viscosity_.beta > 0;
   recipe.gradients = viscosity_.balsara || any([](auto const& kernels) { return kernels.needs_gradients; });
   recipe.solids = any([](auto const& kernels) { return kernels.shear_stiffness != nullptr; });
-  recipe.uniform = !recipe.own_ranges && !recipe.viscous && !recipe.gradients &&
+  recipe.transport = any([](auto const& kernels) { return kernels.has_transport; });
+  recipe.fused = recipe.transport && !recipe.gradients;
+  recipe.uniform = !recipe.own_ranges && !recipe.viscous && !recipe.gradients && !recipe.transport &&
                    density_from_ == DensityFrom::summation &&
                    !any([&](auto const& kernels) { return !kernels.constant_push || kernels.push != push; });
   SmoothKernels const& kernels = smooth_kernels_of(shape_).in[box().dimension() - 1];
@@ -409,9 +424,14 @@ SmoothScheme::Recipe SmoothScheme::recipe() const {
   bool const by_volume = density_from_ == DensityFrom::volumes;
   recipe.rates = recipe.uniform     ? passes.uniform
                  : recipe.gradients ? (by_volume ? passes.all_by_volume : passes.all)
+                 : recipe.fused     ? (by_volume        ? passes.fluid_by_volume
+                                       : recipe.viscous ? passes.fluid_viscous
+                                                        : passes.fluid)
                  : by_volume        ? passes.viscous_by_volume
                  : recipe.viscous   ? passes.viscous
                                     : passes.pressure;
+  TransportKernels const& transport = transport_kernels().in[box().dimension() - 1];
+  recipe.transport_passes = recipe.own_ranges ? &transport.variable : &transport.same;
   return recipe;
 }
 
@@ -434,7 +454,8 @@ void SmoothScheme::set_tasks(Recipe const& recipe, SortedCopy& copy) {
     task.order = copy.order();
     task.members = loaded_.size() == 1 && !division_ ? nullptr : loaded->members.data();
     task.fluid = copy.block(fluid);
-    task.matter = copy.extra_blocks() > 1 ? copy.block(fluid + 1) : nullptr;
+    task.transport = recipe.transport ? copy.block(fluid + 1) : nullptr;
+    task.matter = recipe.gradients ? copy.block(fluid + 1 + transport_blocks(box().dimension())) : nullptr;
     if (recipe.solids) task.solid = copy.block(copy.blocks() + copy.extra_blocks() - solid_blocks(box().dimension()));
     task.block_stride = copy.block_stride();
     task.factor = recipe.own_ranges ? factors_.data() : nullptr;
@@ -477,18 +498,20 @@ void SmoothScheme::find(Until until, bool looking) {
   SmoothPasses const& passes = *recipe.passes;
   set_tasks(recipe, copy);
   auto const D = static_cast<std::size_t>(box().dimension());
-  std::size_t const fluid = place_blocks(box().dimension()), matter = fluid + 1,
-                    end = copy.blocks() + copy.extra_blocks();
+  std::size_t const fluid = place_blocks(box().dimension()), transport = fluid + 1,
+                    matter = transport + transport_blocks(box().dimension()), end = copy.blocks() + copy.extra_blocks(),
+                    state_end = transport + (recipe.transport ? 1 : 0);
 
   // Step 2, and the state of step 4. Where forces need no density, it waits until somebody looks.
   if (!recipe.uniform || until == Until::state) {
     if (density_from_ == DensityFrom::summation) sum_densities(recipe);
     sound_rate_ = 0;
     run_material(&MaterialKernels::state);
-    if (division_) bring(copy, fluid, matter);
+    if (division_) bring(copy, fluid, state_end);
   }
   if (until == Until::state) return;
-  if (!recipe.uniform) copy.refresh_images(fluid, matter, threads_for(copy.owned(), 1, threads()));
+  if (!recipe.uniform) copy.refresh_images(fluid, state_end, threads_for(copy.owned(), 1, threads()));
+  if (recipe.transport) find_motion(recipe, copy);
 
   // Step 3, and the fluxes of step 4.
   if (recipe.solids) sum_solids(recipe, copy);
@@ -509,6 +532,7 @@ void SmoothScheme::find(Until until, bool looking) {
   run_pass(recipe.rates, recipe.uniform ? D : D + 2, sums_);
   for (auto& loaded : loaded_) loaded->task.rates = sums_.data();
   run_material(&MaterialKernels::rates);
+  if (recipe.transport && !recipe.fused) add_transport(recipe);
   if (recipe.solids) add_solid_forces(recipe);
 }
 

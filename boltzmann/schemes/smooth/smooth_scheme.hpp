@@ -8,13 +8,17 @@
 #include <boltzmann/schemes/smooth/force_on.hpp>
 #include <boltzmann/schemes/smooth/material_kernels.hpp>
 #include <boltzmann/schemes/smooth/smooth_kernels.hpp>
+#include <boltzmann/schemes/smooth/transport_kernels.hpp>
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace boltzmann {
+
+class ExactSum;
 
 /// How the density of a particle is known.
 enum class DensityFrom {
@@ -89,9 +93,8 @@ class SmoothScheme final : public Scheme {
   void skin(double length);
 
   /// The longest step that follows sound, forces and diffusion from particle to particle: the smallest of 0.4 h / (c (1
-  /// + 0.6 alpha)), sqrt(h / acceleration) / 4 and h^2 / 8 over the diffusivity, h being the smoothing length: half the
-  /// range, or a third for the quintic spline; in solids also 0.35 spacing / shear speed, for hourglass control.
-  /// Accelerations are those of the last calculation, if there was one.
+  /// + 0.6 alpha)), sqrt(h / acceleration) / 4 and range^2 / 64 over the diffusivity, h being the smoothing length: half
+  /// the range, or a third for the quintic spline; in solids also 0.35 spacing / shear speed, for hourglass control. Accelerations are those of the last calculation, if there was one.
   double courant_step();
 
   void add_influences(double time) override;
@@ -138,9 +141,12 @@ class SmoothScheme final : public Scheme {
     bool viscous = false;     // artificially
     bool gradients = false;   // are needed
     bool solids = false;      // with a shear stiffness
+    bool transport = false;   // there are viscosities or conductivities
+    bool fused = false;       // the pass of rates has them
     bool uniform = false;     // P / rho^2 is the same for all: forces need no density
     SmoothPasses const* passes = nullptr;
     PairKernel rates = nullptr;  // of the passes
+    TransportPasses const* transport_passes = nullptr;
   };
   Recipe recipe() const;
   SolidPasses solid_passes_of(Recipe const& recipe) const;
@@ -149,7 +155,10 @@ class SmoothScheme final : public Scheme {
   void set_tasks(Recipe const& recipe, SortedCopy& copy);
   void find_places(bool looking = false);
   void find(Until until, bool looking = false);
+  void find_motion(Recipe const& recipe, SortedCopy& copy);
+  void add_transport(Recipe const& recipe);
   Tensor<3> stress();
+  void add_viscous_stress(Recipe const& recipe, std::array<ExactSum, 9>& sums);
   /// Of each particle: its grad-h factor, and two ranges that are too short and too long.
   struct RangeBracket {
     std::vector<double> factor, shorter, longer;

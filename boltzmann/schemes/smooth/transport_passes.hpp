@@ -1,0 +1,183 @@
+// Viscosity and conduction of smooth particles: passes over pairs.
+//
+// The motion around particle i is a rigid rotation W_i, an even expansion, and a rest that is sheared. With r = x_j - x_i,
+// v = v_j - v_i, volumes V, a kernel K that has the second moments Sum_j V_j K r_a r_b = delta_ab in a continuum, and the
+// harmonic mean eta_ij of both shear viscosities, the particle dissipates
+//   V_i Phi_i = V_i [2 c_i Sum_j V_j K eta_ij |v - W_i r|^2 + (zeta_i - 2 eta_i / D) d_i^2],
+//   d_i = c_i Sum_j V_j K r.v (div v),   c_i = D / Sum_j V_j K r^2,   W_i: the minimum of the first sum.
+// In a linear flow this is 2 eta E:E + (zeta - 2 eta / D) (div v)^2 wherever second moments are isotropic: on lattices
+// exactly. Forces are the derivatives of Rayleigh's dissipation function, F_i = -d/dv_i Sum_k V_k Phi_k / 2:
+//   F_ij = V_i V_j K {2 eta_ij [c_i (v - W_i r) + c_j (v - W_j r)] + (b_i + b_j) r},   b_i = c_i (zeta_i - 2 eta_i / D) d_i.
+// They conserve linear momentum by symmetry, and angular momentum, since Sum_j V_j K eta_ij r x (v - W_i r) = 0 for each i.
+// Particle i is heated by V_i Phi_i >= 0, so total energy is conserved and no entropy is lost. Rows that alternate have
+// W = 0 and d = 0, so all of their motion is damped: there is no null mode.
+//
+// K. Mueller, D. A. Fedosov, G. Gompper (J. Comput. Phys. 281, 301, 2015) conserve angular momentum by the same friction
+// between velocities v - W r, with a spin of each particle in place of the local rotation. Harmonic means and heat:
+// P. W. Cleary, J. J. Monaghan (J. Comput. Phys. 148, 227, 1999), q_ij = 2 V_i V_j K kappa_ij (T_j - T_i).
+#pragma once
+
+#include <boltzmann/schemes/smooth/passes.hpp>
+#include <boltzmann/schemes/smooth/smooth_point.hpp>
+
+#include <numbers>
+#include <type_traits>
+
+namespace boltzmann {
+
+/// The sums from which a particle's local motion follows, w = V_j K eta_ij.
+template <int D, class Real>
+struct MotionSum {
+  static constexpr int axes = D == 3 ? 3 : 1;  // of rotation; in 1D one that stays zero
+  Real approach;                               ///< Sum V_j K r.v
+  Real spread;                                 ///< Sum V_j K r^2
+  Real resistance;                             ///< Sum V_j K r^2 / eta_ij
+  Real turning[axes];                          ///< Sum w (v_a r_b - v_b r_a): xy, xz, yz
+  Real inertia[axes * (axes + 1) / 2];         ///< 2D: Sum w r^2; 3D: Sum w r_a r_b: xx, xy, xz, yy, yz, zz
+};
+template <int D, class Real>
+struct TransportSum {
+  Vector<D, Real> force;  ///< by volume
+  Real heating;           ///< likewise
+};
+template <int D, class Real>
+TransportSum(Vector<D, Real>, Real) -> TransportSum<D, Real>;
+/// Sum r_a F_b, symmetric part: xx, xy, xz, yy, yz, zz; F by volume.
+template <int D, class Real>
+struct StressSum {
+  Real stress[D * (D + 1) / 2];
+};
+
+namespace detail {
+
+/// K = norm (1 - r^2 / range^2)^4 / range^(D + 2), without a root. Weights of the shape of the scheme, w'/r, would have
+/// second moments that depend more on the lattice.
+template <int D>
+inline constexpr double transport_norm = D == 1   ? 3465.0 / 256
+                                         : D == 2 ? 60 / std::numbers::pi
+                                                  : 45045 / (512 * std::numbers::pi);
+template <int D, class Real>
+[[gnu::always_inline]] inline Real transport_kernel(Real const& r2, Real const& inverse_range) {
+  Real const inverse2 = inverse_range * inverse_range, u = max(Real(1.0 - r2 * inverse2), Real(0.0)), u2 = u * u;
+  Real norm = transport_norm<D> * inverse2;
+  for (int d = 0; d < D; ++d) norm = norm * inverse_range;
+  return norm * u2 * u2;
+}
+
+/// V_j K of a pair, the same for both but for the volume.
+template <bool variable, class P>
+[[gnu::always_inline]] inline auto transport_weight(P const& p, P const& q, decltype(P::range) const& r2,
+                                                    PassParameters const& parameters) {
+  using Real = std::remove_cvref_t<decltype(r2)>;
+  constexpr int D = P::dimension;
+  if constexpr (variable)
+    return 0.5 * q.volume *
+           (transport_kernel<D>(r2, Real(1.0 / p.range)) + transport_kernel<D>(r2, Real(1.0 / q.range)));
+  else
+    return q.volume * transport_kernel<D>(r2, Real(1.0 / parameters.range));
+}
+
+template <int D, class Real>
+struct ViscousPair {
+  Vector<D, Real> force;  ///< on p, by its volume
+  Real heating;           ///< p's own part of the work, likewise
+  Real conduction;        ///< heat by difference of temperatures
+};
+
+template <bool variable, class P>
+[[gnu::always_inline]] inline auto viscous_pair(P const& p, P const& q, PassParameters const& parameters) {
+  using Real = std::remove_cvref_t<decltype(p.mass)>;
+  constexpr int D = P::dimension;
+  auto const r = q.position - p.position, v = q.velocity - p.velocity;
+  Real const weight = transport_weight<variable>(p, q, dot(r, r), parameters);
+  // Twice the harmonic means, 4 / (sum of inverses), by one division.
+  Real const against_shear = p.inverse_viscosity + q.inverse_viscosity,
+             against_heat = p.inverse_conductivity + q.inverse_conductivity,
+             both = 4.0 / (against_shear * against_heat), drag = both * against_heat;
+  auto const from_p = v * p.normaliser - rotation_times<D>(p.rotation, r);
+  auto const from_q = v * q.normaliser - rotation_times<D>(q.rotation, r);
+  return ViscousPair<D, Real>{
+      (from_p + from_q) * (weight * drag) + r * (weight * (p.expansion_push + q.expansion_push)),
+      weight * (drag * dot(from_p, v) + p.expansion_push * dot(r, v)), weight * both * against_shear};
+}
+
+}  // namespace detail
+
+template <bool variable>
+struct MotionPass {
+  PassParameters parameters;
+
+  template <class P>
+  auto operator()(P const& p, P const& q) const {
+    using Real = std::remove_cvref_t<decltype(p.mass)>;
+    constexpr int D = P::dimension;
+    auto const r = q.position - p.position, v = q.velocity - p.velocity;
+    Real const r2 = dot(r, r), weight = detail::transport_weight<variable>(p, q, r2, parameters);
+    Real const resistance = 0.5 * (p.inverse_viscosity + q.inverse_viscosity), w = weight / resistance;
+    MotionSum<D, Real> sum;
+    sum.approach = weight * dot(r, v);
+    sum.spread = weight * r2;
+    sum.resistance = sum.spread * resistance;
+    if constexpr (D == 1) {
+      sum.turning[0] = sum.inertia[0] = Real(0.0);
+    } else if constexpr (D == 2) {
+      sum.turning[0] = w * (v[0] * r[1] - v[1] * r[0]);
+      sum.inertia[0] = w * r2;
+    } else {
+      int n = 0, m = 0;
+      for (int a = 0; a < D; ++a)
+        for (int b = a; b < D; ++b) {
+          sum.inertia[n++] = w * r[a] * r[b];
+          if (a != b) sum.turning[m++] = w * (v[a] * r[b] - v[b] * r[a]);
+        }
+    }
+    return sum;
+  }
+};
+
+template <bool variable>
+struct TransportPass {
+  PassParameters parameters;
+
+  template <class P>
+  auto operator()(P const& p, P const& q) const {
+    auto const pair = detail::viscous_pair<variable>(p, q, parameters);
+    return TransportSum{pair.force, pair.heating + pair.conduction * (q.temperature - p.temperature)};
+  }
+};
+
+/// All rates of a fluid in one pass.
+template <class Shape, bool variable, RateTerms terms, bool volumes = false>
+struct FluidPass {
+  PassParameters parameters;
+
+  template <class P>
+  auto operator()(P const& p, P const& q) const {
+    using Real = std::remove_cvref_t<decltype(p.mass)>;
+    auto const rates = RatePass<Shape, variable, terms, volumes>{parameters}(p, q);
+    auto const transport = TransportPass<variable>{parameters}(p, q);
+    Real const by_density = 1.0 / p.density;
+    return RateSum{rates.acceleration + transport.force * by_density, rates.heating + transport.heating * by_density,
+                   rates.compression};
+  }
+};
+
+template <bool variable>
+struct StressPass {
+  PassParameters parameters;
+
+  template <class P>
+  auto operator()(P const& p, P const& q) const {
+    using Real = std::remove_cvref_t<decltype(p.mass)>;
+    constexpr int D = P::dimension;
+    auto const r = q.position - p.position;
+    auto const force = detail::viscous_pair<variable>(p, q, parameters).force;
+    StressSum<D, Real> sum;
+    int n = 0;
+    for (int a = 0; a < D; ++a)
+      for (int b = a; b < D; ++b) sum.stress[n++] = 0.5 * (r[a] * force[b] + r[b] * force[a]);
+    return sum;
+  }
+};
+
+}  // namespace boltzmann
