@@ -156,18 +156,13 @@ Place join_launched(BoltzmannTeamFunctions const& functions, Launched const& tol
 
 std::string words_of_start(std::vector<std::string> const& words) {
   std::string text = words.empty() ? "" : fs::path(words[0]).filename().string();
-  for (std::size_t k = 1; k < words.size(); ++k)
-    if (words[k] == "--threads")
-      ++k;
-    else if (!words[k].starts_with("--threads="))
-      text += " " + words[k];
+  for (std::size_t k = 1; k < words.size(); ++k) text += " " + words[k];
   return text;
 }
 
 std::string different_starts(int rank, std::string const& own, std::string const& other, std::string const& words) {
-  return fmt::format(
-      "rank {} was started with '{}', {} with '{}'; all ranks need the same command (only --threads may differ)", rank,
-      own, other, words);
+  return fmt::format("rank {} was started with '{}', {} with '{}'; all ranks need the same command", rank, own, other,
+                     words);
 }
 
 /// Those of a file, each with a zero behind it.

@@ -18,7 +18,7 @@ Launched launched();
 void stay_alone();
 
 /// Says with which words this process was started. Ranks that were started with other words than rank 0 are refused when
-/// they join their team; the number of threads alone may differ.
+/// they join their team.
 void started_with(int argc, char const* const* argv);
 /// For a program that rank 0 alone does, without MPI: Error if the launcher has started another rank of this machine with
 /// other words. Looks for half a second if it finds no other rank.

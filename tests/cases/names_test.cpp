@@ -28,7 +28,7 @@ void expect_refused(std::string const& text, std::string const& wrong, std::stri
   EXPECT_EQ(run.status, 2) << text;
   EXPECT_EQ(checked.err, run.err);
   EXPECT_EQ(lines_in(checked.err), 1U) << checked.err;
-  EXPECT_EQ(checked.err.rfind("wrong.toml:" + std::to_string(line) + ": ", 0), 0U) << checked.err;
+  EXPECT_EQ(checked.err.rfind("wrong.toml:" + std::to_string(line) + ":", 0), 0U) << checked.err;
   EXPECT_TRUE(has(checked.err, part)) << checked.err;
   EXPECT_FALSE(fs::exists(one / "run"));
 }
