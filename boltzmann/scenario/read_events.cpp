@@ -195,6 +195,19 @@ void note_nobody(std::vector<Moved> const& moved, double time, std::string const
       fmt::format("note: where: '{}' is true for no particle at the start (event in line {})", condition, place.line));
 }
 
+/// What temperature, scale and kick do to those for which the condition is true then.
+std::function<void(Simulation&)> velocity_change(std::vector<Moved> const& moved, EventOptions const& options,
+                                                 std::string const& condition, Reading const& reading) {
+  return [=, k = reading.boltzmann_constant(), units = reading.context.units](Simulation& simulation) {
+    auto const who = who_is_moved(moved, simulation.time());
+    if (!condition.empty() && is_nobody(who))
+      warn_of_nobody(condition, units.text(simulation.time(), dimensions::time));
+    if (options.temperature) scale_to_temperature(who, *options.temperature, k);
+    if (options.scale) scale_velocities(who, *options.scale);
+    if (options.kick) kick(who, *options.kick);
+  };
+}
+
 void read_event(Item const& table, std::size_t number, Reading& reading) {
   std::size_t const before = reading.context.mistakes.count();
   Section section(table, "[[events]]", reading.context);
@@ -243,17 +256,7 @@ void read_event(Item const& table, std::size_t number, Reading& reading) {
           {at, adding, [to = added->to, more = added->particles[static_cast<std::size_t>(time)]](Simulation& /*of*/) {
              append(*to, *more);
            }});
-    if (moves)
-      reading.events.push_back({at, passing,
-                                [=, condition = condition_of(section), k = reading.boltzmann_constant(),
-                                 units = reading.context.units](Simulation& simulation) {
-                                  auto const who = who_is_moved(moved, simulation.time());
-                                  if (!condition.empty() && is_nobody(who))
-                                    warn_of_nobody(condition, units.text(simulation.time(), dimensions::time));
-                                  if (options.temperature) scale_to_temperature(who, *options.temperature, k);
-                                  if (options.scale) scale_velocities(who, *options.scale);
-                                  if (options.kick) kick(who, *options.kick);
-                                }});
+    if (moves) reading.events.push_back({at, passing, velocity_change(moved, options, condition_of(section), reading)});
   }
 }
 
