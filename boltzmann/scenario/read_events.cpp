@@ -205,6 +205,35 @@ void check_distance(Section& section, Item const* add, Addition const* added, Re
     section.mistake("keep_distance", "in a sheared box no distance to other particles can be kept; leave it out");
 }
 
+/// The text of `where`; empty if there is none.
+std::string condition_of(Section const& section) {
+  Item const* where = section.item("where");
+  return where && where->is(Item::Kind::text) ? where->text : "";
+}
+
+/// A note if the condition is true for no particle as they start.
+void note_nobody(std::vector<Moved> const& moved, double time, std::string const& condition, Place const& place,
+                 Reading& reading) {
+  if (condition.empty() || !is_nobody(who_is_moved(moved, time))) return;
+  reading.note(
+      fmt::format("note: where: '{}' is true for no particle at the start (event in line {})", condition, place.line));
+}
+
+/// What temperature, scale and kick do to those for which the condition is true then.
+std::function<void(Simulation&)> velocity_change(std::vector<Moved> const& moved, EventOptions const& options,
+                                                 std::string const& condition, Reading const& reading) {
+  return [=, k = reading.boltzmann_constant(), units = reading.context.units](Simulation& simulation) {
+    auto const who = who_is_moved(moved, simulation.time());
+    if (!condition.empty() && is_nobody(who))
+      warn_of_nobody(condition, units.text(simulation.time(), dimensions::time));
+    if (options.temperature)
+      scale_to_temperature(who, *options.temperature, k,
+                           options.subtract_drift ? std::array{true, true, true} : simulation.momentum_is_kept());
+    if (options.scale) scale_velocities(who, *options.scale);
+    if (options.kick) kick(who, *options.kick);
+  };
+}
+
 void read_event(Item const& table, std::size_t number, Reading& reading) {
   std::size_t const before = reading.context.mistakes.count();
   Section section(table, "[[events]]", reading.context);
@@ -220,8 +249,6 @@ void read_event(Item const& table, std::size_t number, Reading& reading) {
                                               describe(*set)));
   }
   bool const moves = options.temperature || options.scale || options.kick;
-  Item const* const where = section.item("where");
-  std::string const condition = where && where->is(Item::Kind::text) ? where->text : "";
   if (options.every ? !section.has("times") : section.has("times"))
     reading.mistake(section.place(options.every ? "every" : "times"),
                     "every and times: what happens again needs both, the time between and how often");
@@ -244,9 +271,7 @@ void read_event(Item const& table, std::size_t number, Reading& reading) {
     reading.mistake(table.place, "[[events]]: nothing happens; add 'set', 'add', 'temperature', 'scale' or 'kick'");
   section.finish();
   if (reading.context.mistakes.count() != before) return;
-  if (moves && !condition.empty() && is_nobody(who_is_moved(moved, options.at)))
-    reading.note(fmt::format("note: where: '{}' is true for no particle at the start (event in line {})", condition,
-                             where->place.line));
+  if (moves) note_nobody(moved, options.at, condition_of(section), section.place("where"), reading);
   using enum ReadEvent::Kind;
   for (std::int64_t time = 0; time < options.times; ++time) {
     double const at = options.at + static_cast<double>(time) * options.every.value_or(0);
@@ -263,18 +288,7 @@ void read_event(Item const& table, std::size_t number, Reading& reading) {
                                   else
                                     append(*added.to, *more);
                                 }});
-    if (moves)
-      reading.events.push_back(
-          {at, passing, [=, k = reading.boltzmann_constant(), units = reading.context.units](Simulation& simulation) {
-             auto const who = who_is_moved(moved, simulation.time());
-             if (!condition.empty() && is_nobody(who))
-               warn_of_nobody(condition, units.text(simulation.time(), dimensions::time));
-             if (options.temperature)
-               scale_to_temperature(who, *options.temperature, k,
-                                    options.subtract_drift ? std::array{true, true, true} : simulation.momentum_is_kept());
-             if (options.scale) scale_velocities(who, *options.scale);
-             if (options.kick) kick(who, *options.kick);
-           }});
+    if (moves) reading.events.push_back({at, passing, velocity_change(moved, options, condition_of(section), reading)});
   }
 }
 
