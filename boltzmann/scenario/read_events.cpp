@@ -179,6 +179,16 @@ std::optional<Addition> read_added(Item const& add, Section& section, std::size_
   return all;
 }
 
+/// Adds the particles of one time.
+std::function<void(Simulation&)> adding_event(Addition const& added, std::size_t time, double distance) {
+  return [added, more = added.particles[time], distance](Simulation& simulation) {
+    if (distance > 0)
+      append_apart(added, *more, distance, simulation);
+    else
+      append(*added.to, *more);
+  };
+}
+
 /// Whether a distance to others can be kept.
 void check_distance(Section& section, Item const* add, Addition const* added, Reading& reading) {
   if (!add) section.mistake("keep_distance", "it belongs to 'add'; leave it out");
@@ -235,14 +245,8 @@ void read_event(Item const& table, std::size_t number, Reading& reading) {
                                   for (auto const& set : settings) set(simulation);
                                 }});
     if (added)
-      reading.events.push_back({at, adding,
-                                [added = *added, more = added->particles[static_cast<std::size_t>(time)],
-                                 distance = options.keep_distance](Simulation& simulation) {
-                                  if (distance > 0)
-                                    append_apart(added, *more, distance, simulation);
-                                  else
-                                    append(*added.to, *more);
-                                }});
+      reading.events.push_back(
+          {at, adding, adding_event(*added, static_cast<std::size_t>(time), options.keep_distance)});
     if (moves)
       reading.events.push_back({at, passing, [=, k = reading.boltzmann_constant()](Simulation& simulation) {
                                   auto const who = who_is_moved(moved, simulation.time());
