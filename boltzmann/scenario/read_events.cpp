@@ -193,6 +193,16 @@ std::optional<Addition> read_added(Item const& add, Section& section, std::size_
   return all;
 }
 
+/// Adds the particles of one time.
+std::function<void(Simulation&)> adding_event(Addition const& added, std::size_t time, double distance) {
+  return [added, more = added.particles[time], distance](Simulation& simulation) {
+    if (distance > 0)
+      append_apart(added, *more, distance, simulation);
+    else
+      append(*added.to, *more);
+  };
+}
+
 /// Whether a distance to others can be kept.
 void check_distance(Section& section, Item const* add, Addition const* added, Reading& reading) {
   if (!add) section.mistake("keep_distance", "it belongs to 'add'; leave it out");
@@ -234,6 +244,16 @@ std::function<void(Simulation&)> velocity_change(std::vector<Moved> const& moved
   };
 }
 
+/// Keys that belong to changes of velocities.
+void check_what_moves(Section& section, EventOptions const& options, bool adds, Reading& reading) {
+  bool const moves = options.temperature || options.scale || options.kick;
+  for (char const* key : {"on", "where"})
+    if (!moves && section.has(key) && !(adds && std::string_view(key) == "on"))
+      reading.mistake(section.place(key),
+                      fmt::format("{}: it belongs to what changes velocities: temperature, scale or kick", key));
+  if (!options.temperature) section.refuse("subtract_drift", "it belongs to 'temperature', which is missing");
+}
+
 void read_event(Item const& table, std::size_t number, Reading& reading) {
   std::size_t const before = reading.context.mistakes.count();
   Section section(table, "[[events]]", reading.context);
@@ -262,11 +282,7 @@ void read_event(Item const& table, std::size_t number, Reading& reading) {
       add && !moves ? read_added(*add, section, number, options.times, reading) : std::nullopt;
   if (section.has("keep_distance")) check_distance(section, add, added ? &*added : nullptr, reading);
   auto const moved = add ? std::vector<Moved>{} : read_moved(section, reading);
-  for (char const* key : {"on", "where"})
-    if (!moves && section.has(key) && !(add && std::string_view(key) == "on"))
-      reading.mistake(section.place(key),
-                      fmt::format("{}: it belongs to what changes velocities: temperature, scale or kick", key));
-  if (!options.temperature) section.refuse("subtract_drift", "it belongs to 'temperature', which is missing");
+  check_what_moves(section, options, add != nullptr, reading);
   if (!moves && !add && !section.has("set") && reading.context.mistakes.count() == before)
     reading.mistake(table.place, "[[events]]: nothing happens; add 'set', 'add', 'temperature', 'scale' or 'kick'");
   section.finish();
@@ -280,14 +296,8 @@ void read_event(Item const& table, std::size_t number, Reading& reading) {
                                   for (auto const& set : settings) set(simulation);
                                 }});
     if (added)
-      reading.events.push_back({at, adding,
-                                [added = *added, more = added->particles[static_cast<std::size_t>(time)],
-                                 distance = options.keep_distance](Simulation& simulation) {
-                                  if (distance > 0)
-                                    append_apart(added, *more, distance, simulation);
-                                  else
-                                    append(*added.to, *more);
-                                }});
+      reading.events.push_back(
+          {at, adding, adding_event(*added, static_cast<std::size_t>(time), options.keep_distance)});
     if (moves) reading.events.push_back({at, passing, velocity_change(moved, options, condition_of(section), reading)});
   }
 }
