@@ -315,27 +315,33 @@ Fluxes<P::dimension> find_strength(M const& material, MaterialTask const& task, 
   };
   Tensor<D> whole, whole_in_middle;
   Vector<D> moment, moment_in_middle;
-  P middle = advanced(p, rates, p.lag / 2);
-  strength(p, whole, moment);
-  double const power = dot(moment, rates_of_hourglass) - volume * contraction(transpose(whole), gradients.velocity);
-  middle.specific_energy += power * p.lag / (2 * p.mass);
-  strength(middle, whole_in_middle, moment_in_middle);
+  auto fluxes_in_middle = strength(p, whole_in_middle, moment_in_middle);
+  double const power =
+      dot(moment_in_middle, rates_of_hourglass) - volume * contraction(transpose(whole_in_middle), gradients.velocity);
   P now = advanced(p, rates, p.lag);
-  now.specific_energy += (dot(moment_in_middle, rates_of_hourglass) -
-                          volume * contraction(transpose(whole_in_middle), gradients.velocity)) *
-                         p.lag / p.mass;
+  now.specific_energy += power * p.lag / p.mass;
   auto const fluxes = strength(now, whole, moment);
-  Tensor<D> correction{};
-  if (task.continuity) correction = dot(l, whole - fluxes.pressure) - Tensor<D>::identity() * p.pressure;
-  correction = (correction + dot(l, fluxes.pressure) - fluxes.pressure) * volume;
+  // The mean of the start of the step and its end: forces act for half a step before and behind each.
+  whole_in_middle = (whole_in_middle + whole) * 0.5;
+  moment_in_middle = (moment_in_middle + moment) * 0.5;
+  fluxes_in_middle.pressure = (fluxes_in_middle.pressure + fluxes.pressure) * 0.5;
+  // What the force pass adds to the stress that the rate pass uses.
+  auto const pushed = Tensor<D>::identity() * p.pressure;
+  auto const correction_for = [&](Fluxes<D> const& part, Tensor<D> const& all) {
+    Tensor<D> more = dot(l, part.pressure) - part.pressure;
+    if (task.continuity) more += dot(l, all - part.pressure) - pushed;
+    return more * volume;
+  };
+  auto const correction = correction_for(fluxes, whole);
   if (p.lag != 0) {
-    // Passes find the work of the stress at the end of the step, partly with the velocities there. What counts is that
-    // in the middle.
-    auto const raw = fluxes.pressure + Tensor<D>::identity() * p.pressure;
-    influence.heating += dot(moment_in_middle - moment, rates_of_hourglass) -
-                         volume * contraction(transpose(whole_in_middle), gradients.velocity) +
-                         volume * contraction(transpose(raw), predicted.velocity) +
-                         contraction(correction, sums.gradient);
+    // Passes find the work of the stress at the end of the step, and the rate pass that with the velocities there. What
+    // counts is the work in the middle.
+    double const factor = volume * (task.factor ? task.factor[k] : 1);
+    auto const earlier = correction_for(fluxes_in_middle, whole_in_middle);
+    influence.heating += dot(moment_in_middle - moment, rates_of_hourglass) +
+                         factor * (contraction(fluxes.pressure + pushed, sums.predicted) -
+                                   contraction(fluxes_in_middle.pressure + pushed, sums.in_middle)) +
+                         contraction(correction - earlier, sums.gradient);
   }
   double values[2 * D + D * D], *value = values;
   for (double const x : moment.component) *value++ = x * scale;

@@ -15,6 +15,7 @@ struct PassParameters {
   /// each in Eq 14; all and nothing keep each particle on its isentrope.
   double own_share = 0.5, other_share = 0.5;
   double alpha = 0, beta = 0;  ///< artificial viscosity (Monaghan 1992)
+  double by_volume = 0;        ///< 1: neighbours count by their volume in all rates
 };
 
 template <class Real>

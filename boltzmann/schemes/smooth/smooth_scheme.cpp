@@ -471,6 +471,7 @@ void SmoothScheme::set_tasks(Recipe const& recipe, SortedCopy& copy) {
     }
   }
   parameters_.range = longest_;
+  parameters_.by_volume = density_from_ == DensityFrom::volumes ? 1 : 0;
   parameters_.push = loaded_.front()->kernels.push;
 }
 
@@ -548,7 +549,7 @@ void SmoothScheme::sum_solids(Recipe const& recipe, SortedCopy& copy) {
   run_material(&MaterialKernels::cohesion);
   if (division_) bring(copy, first, first + 2);
   copy.refresh_images(first, first + 2, threads_for(copy.owned(), 1, threads()));
-  run_pass(solid_passes_of(recipe).sums, 1 + 2 * D + 4 * D * D, solid_sums_);
+  run_pass(solid_passes_of(recipe).sums, 1 + 2 * D + 6 * D * D, solid_sums_);
   for (auto& loaded : loaded_) loaded->task.solid_sums = solid_sums_.data();
 }
 

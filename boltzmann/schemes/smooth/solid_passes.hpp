@@ -48,7 +48,9 @@ struct SmoothSolid : SmoothMatter<D, Real>, detail::BehindMatter<D, Real> {
 template <int D, class Real>
 struct SolidSum {
   Tensor<D, Real> gradient;  ///< G
-  Tensor<D, Real> spread;    ///< B
+  // The gradients with which the rate pass does work: neighbours count by mass / density of p (or by their volume).
+  Tensor<D, Real> in_middle, predicted;  ///< of the velocities in the middle of the step, at its end
+  Tensor<D, Real> spread;                ///< B
   // With the weight phi / spacing:
   Real weight;
   Vector<D, Real> offset;         ///< of r
@@ -57,8 +59,8 @@ struct SolidSum {
   Tensor<D, Real> near_gradient;  ///< of r (v_p - v_q)
 };
 template <int D, class Real>
-SolidSum(Tensor<D, Real>, Tensor<D, Real>, Real, Vector<D, Real>, Vector<D, Real>, Tensor<D, Real>, Tensor<D, Real>)
-    -> SolidSum<D, Real>;
+SolidSum(Tensor<D, Real>, Tensor<D, Real>, Tensor<D, Real>, Tensor<D, Real>, Real, Vector<D, Real>, Vector<D, Real>,
+         Tensor<D, Real>, Tensor<D, Real>) -> SolidSum<D, Real>;
 
 /// phi(x) = (1 - x / reach)^4, and a. Both are chosen so that plane shear waves in which neighbouring planes of
 /// particles move against each other have the frequency sqrt(G / rho) k, for the square, hexagonal, simple cubic and
@@ -95,10 +97,21 @@ struct SolidSumPass {
     using Real = std::remove_cvref_t<decltype(p.mass)>;
     auto const r = q.position - p.position, v = p.middle_velocity - q.middle_velocity;
     auto const r2 = dot(r, r);
-    auto const smooth = r * (q.volume * detail::weigh_by<Shape, variable>(p, r2, parameters).slope);
+    Real const slope = detail::weigh_by<Shape, variable>(p, r2, parameters).slope;
+    auto const smooth = r * (q.volume * slope);
+    auto const of_rates =
+        r * (slope * (parameters.by_volume * q.volume + (1 - parameters.by_volume) * q.mass / p.density));
     Real const weight = detail::hourglass_weight(p, q, Real(r2 * rsqrt(max(r2, Real(1e-280)))));
     auto const near = r * weight;
-    return SolidSum{outer(smooth, v), outer(smooth, -r), weight, near, v * weight, outer(near, r), outer(near, v)};
+    return SolidSum{outer(smooth, v),
+                    outer(of_rates, v),
+                    outer(of_rates, p.velocity - q.velocity),
+                    outer(smooth, -r),
+                    weight,
+                    near,
+                    v * weight,
+                    outer(near, r),
+                    outer(near, v)};
   }
 };
 
