@@ -71,9 +71,9 @@ struct Channel {
     double const spacing = 1 / static_cast<double>(s.rows);
     fill_load(fluid, box, {.spacing = spacing, .density = 1, .range = s.range * spacing});
     jitter(fluid, {s.jitter * spacing, test_seed(7) + 1});
-    for (auto& p : fluid) p.position[1] = std::clamp(p.position[1], 0.01 * spacing, 1 - 0.01 * spacing);
+    for (auto& p : fluid) p.density = 1, p.position[1] = std::clamp(p.position[1], 0.01 * spacing, 1 - 0.01 * spacing);
     scheme = std::make_unique<SmoothScheme>(box, s.shape);
-    scheme->material(fluid, Newtonian<Tait>{{.reference_density = 1, .sound_speed = 5}, viscosity});
+    scheme->material(fluid, Newtonian<Tait>{{.reference_density = 1, .sound_speed = 2.5}, viscosity});
     scheme->density_from(s.density);
     if (s.variable) scheme->variable_range({.spacings = s.range});
     UniformGravity<D> gravity{};
@@ -226,7 +226,7 @@ struct Wave {
     double const spacing = 1 / static_cast<double>(n);
     fill_load(fluid, box, {.spacing = spacing, .density = 1, .range = 3 * spacing});
     jitter(fluid, {move * spacing, test_seed(8) + 1});
-    for (auto& p : fluid) p.velocity[component] = 0.02 * std::sin(2 * pi * p.position[D - 1]);
+    for (auto& p : fluid) p.density = 1, p.velocity[component] = 0.02 * std::sin(2 * pi * p.position[D - 1]);
     scheme.material(fluid, material);
     scheme.density_from(DensityFrom::continuity);
     simulation = std::make_unique<Simulation>(scheme, 1e-6);
