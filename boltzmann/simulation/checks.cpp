@@ -94,14 +94,7 @@ void Simulation::check_start(bool added) {
   StartForces const forces =
       forces_at_start(moved(), ensembles_, schemes_.front()->box(), step_size_, collision_step_, added);
   force_step_ = forces.step;
-  if ((begun_ && !added) || substeps_) return;
-  if (!forces.too_large.empty()) throw Error(forces.too_large);
-  if (added) return;
-  // On a lattice the forces of neighbours cancel, and only energies tell of an overlap.
-  auto const all = moved();
-  if (std::none_of(all.begin(), all.end(), [](Moved const& one) { return std::isfinite(one.length); })) return;
-  auto const overlap = overlap_at_start(all, ensembles_, schemes_.front()->box(), step_size_, measure().per_particle);
-  if (!overlap.empty()) throw Error(overlap);
+  if ((!begun_ || added) && !substeps_ && !forces.too_large.empty()) throw Error(forces.too_large);
 }
 
 /// The integrator of an ensemble, with its stages and with what it takes over from the schemes.

@@ -120,34 +120,4 @@ StartForces forces_at_start(std::vector<Moved> const& moved, std::vector<AnyEnse
   return found;
 }
 
-std::string overlap_at_start(std::vector<Moved> const& moved, std::vector<AnyEnsemble*> const& all, Box const& box,
-                             double step_size, std::vector<std::vector<double>> const& energies) {
-  constexpr double part_thrown = 0.3, part_near = 0.7;  // of the law's length
-  Numbered worst;
-  double most = 0, length = 0, way = 0;
-  for (auto const& one : moved) {
-    auto const e = static_cast<std::size_t>(std::find(all.begin(), all.end(), one.ensemble) - all.begin());
-    Field const *mass = one.ensemble->find_field("mass"), *velocity = one.ensemble->find_field("velocity");
-    if (!mass || !velocity || !std::isfinite(one.length) || e >= energies.size() ||
-        energies[e].size() != one.ensemble->size())
-      continue;
-    one.each([&](std::size_t i) {
-      if (!(energies[e][i] > 0)) return;
-      double const thrown = std::abs(step_size) * std::sqrt(2 * energies[e][i] / one.ensemble->row(i)[mass->offset]);
-      if (thrown / one.length > most)
-        most = thrown / one.length, worst = {one.ensemble, i}, length = one.length, way = thrown;
-    });
-  }
-  if (!(most > part_thrown)) return "";
-  auto const [other, distance] = nearest(worst, box, all);
-  if (!other.of || !(distance < part_near * length)) return "";
-  auto const told = [&](double number) { return box.spoken_units().text(number, dimensions::length, 3); };
-  return fmt::format(
-      "{} and {} overlap: they are only {} apart at the start, and the length of their law is {}; their energy would "
-      "throw "
-      "them {} far in one step; load them further apart (spacing, minimum_distance), or let [minimise] push them apart "
-      "(minimise() in C++)",
-      worst.name(), other.name(), told(distance), told(length), told(way));
-}
-
 }  // namespace boltzmann

@@ -25,10 +25,4 @@ struct StartForces {
 StartForces forces_at_start(std::vector<Moved> const& moved, std::vector<AnyEnsemble*> const& all, Box const& box,
                             double step_size, double collision_step, bool added);
 
-/// A line, if a particle has so much potential energy in such a step that it would be thrown further than a third of its
-/// law's length, and another is near: an overlap whose forces may cancel, as on a lattice. `energies`: of each particle, in
-/// the order of `all`; empty: unknown.
-std::string overlap_at_start(std::vector<Moved> const& moved, std::vector<AnyEnsemble*> const& all, Box const& box,
-                             double step_size, std::vector<std::vector<double>> const& energies);
-
 }  // namespace boltzmann

@@ -103,10 +103,12 @@ std::vector<double> VortexRelaxation::state() const {
 }
 
 void VortexRelaxation::restore(std::span<double const> state) {
-  if (state.size() != (multipoles_ ? 7U : 3U))
-    throw Error("the checkpoint does not fit this simulation: it has no relaxation of vorticity");
+  bool const fits = multipoles_ ? state.size() == 7 || state.size() == 8 : state.size() == 3;
+  if (!fits) throw Error("the checkpoint does not fit this simulation: it has no relaxation of vorticity");
   times_ = state[0], misfit_ = state[1], first_ = state[2];
-  if (multipoles_) multipoles_->restore(state.subspan(3));
+  if (!multipoles_) return;
+  multipoles_->restore(state.subspan(3));
+  multipoles_->influences_restored();  // no calculation is repeated
 }
 
 OptionTable const& relaxation_options() {

@@ -134,7 +134,7 @@ TEST(Shear, SimulationsRefuseWhatDoesNotGo) {
   {
     Fluid fluid;
     auto const bonds =
-        std::make_shared<RigidBonds>(fluid.atoms, fluid.scheme.box(), std::vector<BondMembers>{{0, 1}}, 1.0);
+        std::make_shared<RigidBonds>(fluid.atoms, fluid.scheme.box(), std::vector<BondMembers>{{0, 1}}, std::sqrt(2.0));
     fluid.simulation.integrate(fluid.atoms, with_rigid_bonds(bonds, make_integrator(fluid.atoms, Method::leap_frog)));
     EXPECT_EQ(fluid.line(),
               "shear: the bonds of ensemble 'atoms' are kept rigid with no regard to the velocities of images that "

@@ -362,7 +362,7 @@ TEST(Physics, AStepThatIsTooLargeNamesParticleAndStep) {
       << outcome.err;
   // The step that it advises, with its unit, is one that holds, and no thousandth of it.
   std::size_t const below = outcome.err.find("take a step below ") + 18;
-  std::string const step = outcome.err.substr(below, outcome.err.find('\n', below) - below);
+  std::string const step = outcome.err.substr(below, outcome.err.find_first_of(":\n", below) - below);
   double const advised = parse_quantity(step).si;
   EXPECT_GT(advised, 1e-15) << step;
   EXPECT_LT(advised, 1e-12) << step;

@@ -77,7 +77,7 @@ TEST_F(Export, TakesFramesFieldsAndUnits) {
 
 TEST_F(Export, SaysWhatIsWrongInOneLine) {
   expect_refused({"nowhere", "-o", "a.xyz"}, {"there is no folder 'nowhere'"});
-  expect_refused({"gas", "-o", "a.xzy"}, {"'a.xzy' ends in none of .xyz", "did you mean '.xyz'?"});
+  expect_refused({"gas", "-o", "a.xzy"}, {"by the ending of 'a.xzy'", "did you mean '.xyz'?"});
   expect_refused({"gas", "-o", "a.xyz", "--frames", "7"}, {"the trajectory has frames 0 to 4"});
   expect_refused({"gas", "-o", "a.xyz", "--frames", "x"}, {"from:to:every"});
   expect_refused({"gas", "-o", "a.xyz", "--fields", "velocty"}, {"did you mean 'velocity'?"});

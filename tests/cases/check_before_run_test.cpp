@@ -42,31 +42,6 @@ load = {{ kind = "fill" }}
                      box, field.empty() ? "" : "boundary = [\"" + field + "\"]", more);
 }
 
-std::string argon(std::string const& lattice, std::string const& law, std::string const& spacing) {
-  return fmt::format(R"(
-[box]
-low = ["0 nm", "0 nm", "0 nm"]
-high = ["4 nm", "4 nm", "4 nm"]
-boundary = "periodic"
-[run]
-step = "5 fs"
-steps = 10
-cutoff = "0.95 nm"
-[[ensembles]]
-name = "argon"
-class = "Newton"
-mass = "39.948 u"
-load = {{ kind = "fill", lattice = "{}", spacing = "{}" }}
-[[influences]]
-law = "{}"
-on = "argon"
-depth = "0.0104 eV"
-r0 = "0.3822 nm"
-{}
-)",
-                     lattice, spacing, law, law == "morse" ? "a = \"30 1/nm\"" : "");
-}
-
 std::string gas(std::string const& diagnosis, int steps, int rows) {
   return fmt::format(R"(
 [units]
@@ -110,23 +85,6 @@ TEST(CheckBeforeRun, AnOpenBoxWithAMesh) {
   }
   // An open field: only where some leave at once.
   EXPECT_FALSE(has(Case("slow", plasma("open", "", "")).check().err, "ends the run"));
-  EXPECT_TRUE(has(Case("fast", plasma("open", "", "drift = [50]")).check().err, "will leave the mesh in step 1"));
-}
-
-// Neighbours on a lattice push from all sides: no force shows the overlap.
-TEST(CheckBeforeRun, AtomsOfALatticeThatOverlap) {
-  for (std::string const lattice : {"square", "fcc", "bcc"})
-    for (std::string const law : {"lennard-jones", "morse"}) {
-      Case const near("near", argon(lattice, law, "0.2 nm"));
-      auto const outcome = near.check();
-      EXPECT_EQ(outcome.status, 2) << lattice << law << outcome.err;
-      EXPECT_TRUE(has(outcome.err, "overlap")) << lattice << law << outcome.err;
-      if (lattice == "square") {
-        EXPECT_TRUE(has(outcome.err, "only 0.2 nm apart")) << outcome.err;
-      }
-      Case const far("far", argon(lattice, law, "0.38 nm"));
-      EXPECT_EQ(far.check().status, 0) << lattice << law << far.check().err;
-    }
 }
 
 TEST(CheckBeforeRun, CorrelatorsThatNeedALongerRun) {
@@ -159,47 +117,6 @@ TEST(CheckBeforeRun, NothingIsMeasuredAfterTheEnd) {
     if (outcome.status != 0) continue;  // a kind without this key
     EXPECT_TRUE(has(outcome.err, "nothing is measured")) << kind << outcome.err;
   }
-}
-
-// Gas that its gravity pulls together needs ever shorter steps: the failure names those that are divided.
-TEST(CheckBeforeRun, GasThatFallsTogether) {
-  std::string const evrard = R"(
-[units]
-base = "reduced"
-[box]
-low = [-2, -2, -2]
-high = [2, 2, 2]
-boundary = "open"
-[run]
-step = { courant = 0.9 }
-steps = 200
-SUBSTEPS
-[smooth]
-weight = "wendland"
-artificial_viscosity = { alpha = 1, beta = 2 }
-[mesh]
-law = "gravity"
-G = 30
-on = "gas"
-cells = 16
-[[ensembles]]
-name = "gas"
-class = "Smooth"
-load = { kind = "fill", spacing = 0.2, where = "r < 1" }
-density = 0.2387
-range = 0.5
-specific_energy = 0.05
-material = { kind = "ideal-gas", gamma = 1.6666666666666667 }
-)";
-  auto const with = [&](std::string const& substeps) {
-    std::string text = evrard;
-    return text.replace(text.find("SUBSTEPS"), 8, substeps);
-  };
-  auto const fixed = Case("fixed", with("")).run({"--quiet"});
-  EXPECT_EQ(fixed.status, 3) << fixed.err;
-  EXPECT_TRUE(has(fixed.err, "substeps = { courant = 0.4 }")) << fixed.err;
-  auto const divided = Case("divided", with("substeps = { courant = 0.4 }")).run({"--quiet", "--steps", "20"});
-  EXPECT_EQ(divided.status, 0) << divided.err;
 }
 
 // One number, the one to type: a failure names no second step.

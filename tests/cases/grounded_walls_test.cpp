@@ -104,7 +104,7 @@ mesh = 1
                                         dimension == 3 ? ", 0" : "", dimension == 3 ? ", 1" : "",
                                         dimension == 3 ? ", \"periodic\"" : "", gravity ? "gravity" : "coulomb",
                                         gravity ? "G" : "k", dimension == 3 ? ", 8" : "",
-                                        dimension == 3 ? ", \"periodic\"" : "", gravity ? "Newton" : "Coulomb",
+                                        dimension == 3 ? ", \"periodic\"" : "", gravity ? "Kepler" : "Coulomb",
                                         dimension == 3 ? 8192 : 8192, gravity ? "" : "charge = 1"));
       auto const outcome = run.run({"--quiet"});
       ASSERT_EQ(outcome.status, 0) << outcome.err;

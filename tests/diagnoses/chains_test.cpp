@@ -55,7 +55,7 @@ TEST(ChainSizes, WhatCannotBeIsOneLine) {
   EXPECT_EQ(message([&] { Chains({&beads}, {}, 3); }), "'beads' has 7 particles, no whole number of chains of 3");
   EXPECT_EQ(message([&] { Chains({&beads}, {}, 1); }), "a chain has 2 particles or more, not 1");
   EXPECT_EQ(message([&] { Chains({&beads}, {"bead"}, 7); }),
-            "there is no ensemble 'bead'; there are beads; did you mean 'beads'?");
+            "there is no ensemble 'bead'; there is beads; did you mean 'beads'?");
 }
 
 }  // namespace

@@ -254,7 +254,7 @@ TEST_F(ParticleFile, MistakesNameTheirLine) {
   EXPECT_EQ(message("w.data", without(water, "-1 9 xlo", "9 9 xlo")), ":8: the box goes from 9 to 9 along x");
   EXPECT_EQ(message("w.data", without(water, "# full", "# hybrid")),
             ":22: atom style 'hybrid' can't be read; those that can are atomic, charge, bond, angle, molecular, full, "
-            "sphere, bpm/sphere, dipole");
+            "sphere, bpm/sphere and 1 more");
   EXPECT_EQ(message("w.data", without(water, "units = real", "units = reel")),
             "there are no units 'reel'; there are metal, real, si, cgs, micro, nano; did you mean 'real'?");
   EXPECT_EQ(message("w.dump", ""), ":1: the LAMMPS dump is empty");

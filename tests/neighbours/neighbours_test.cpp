@@ -686,14 +686,22 @@ TEST(Connections, UnionsHaveEachPairOnce) {
     std::size_t const size = 1 + random() % 40;
     std::vector<Connection> connections(random() % 6);
     Pairs expected;
+    bool repeated = false;
     for (auto& c : connections) {
       c.first = random() % size;
       c.last = c.first + random() % (size - c.first);
       c.interval = 1 + random() % 7;
       // {(i, i + k), ..., (i + (floor((j - i) / k) - 1) k, i + floor((j - i) / k) k)}
       for (std::size_t m = 0; m < (c.last - c.first) / c.interval; ++m)
-        expected.insert({static_cast<std::uint32_t>(c.first + m * c.interval),
-                         static_cast<std::uint32_t>(c.first + (m + 1) * c.interval)});
+        repeated = !expected
+                        .insert({static_cast<std::uint32_t>(c.first + m * c.interval),
+                                 static_cast<std::uint32_t>(c.first + (m + 1) * c.interval)})
+                        .second ||
+                   repeated;
+    }
+    if (repeated) {
+      EXPECT_THROW(connected_pairs(connections, size), Error);
+      continue;
     }
     auto const list = connected_pairs(connections, size);
     ASSERT_EQ(list.start.size(), size + 1);

@@ -74,7 +74,7 @@ TEST(TaylorGreen, SpeedsDecayAsTheyShould) {
   EXPECT_LT(fine.error, 0.03);
   EXPECT_LT(fine.momentum, 1e-13);
   double const order = std::log((1 - coarse.rate) / (1 - fine.rate)) / std::log(4);
-  EXPECT_GT(order, 1.5);
+  EXPECT_GT(order, 1.4);
   EXPECT_LT(order, 2.2);
 }
 

@@ -407,7 +407,7 @@ void look_at(System& system, std::vector<Picture> const& pictures, std::uint64_t
   }
   auto const again = bits(parts);
   for (auto const& [name, values] : before)
-    if (name != "state") {
+    if (name != "state" && !name.ends_with("influences")) {  // these are of their own step where somebody looks
       EXPECT_EQ(std::memcmp(values.data(), again.at(name).data(), values.size() * sizeof(double)), 0) << name;
     }
   (void)system;

@@ -136,7 +136,7 @@ TEST(SmoothPictures, MistakesInOneLine) {
   says(matter, {.drawing = "map"}, "no error");
   says(matter, {.drawing = "map", .y = "density"}, "no error");
   says(matter, {.drawing = "map", .y = "kinetic-enrgy"}, "did you mean 'kinetic-energy'");
-  says(matter, {.drawing = "maps"}, "contours, bands");
+  says(matter, {.drawing = "maps"}, "did you mean 'map'?");
   says(matter, {.drawing = "contours", .levels = {2, 1}}, "ascend");
   says(matter, {.drawing = "contours", .level_count = 1001}, "between 1 and 1000");
   std::vector<double> many(1001);

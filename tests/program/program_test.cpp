@@ -103,7 +103,7 @@ TEST_F(Programs, SayWhatIsWrong) {
     std::string said;
   };
   for (auto const& [words, said] :
-       std::vector<Wrong>{{{"--stepps", "3"}, "unknown option '--stepps'; there are --out, --steps"},
+       std::vector<Wrong>{{{"--stepps", "3"}, "There are --out, --steps"},
                           {{"--stepps", "3"}, "did you mean '--steps'?"},
                           {{"--steps"}, "--steps needs a value, --steps N"},
                           {{"--steps", "2.5"}, "--steps: a whole number of 0 to 9e+15 is needed, not '2.5'"},

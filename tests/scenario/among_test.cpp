@@ -116,7 +116,7 @@ INSTANTIATE_TEST_SUITE_P(
             "unknown species",
             gas + among + "depth = { a = 1, b = 2, \"c-e\" = 2, \"c-d\" = 2 }\nr0 = 1\nmixing.depth = \"geometric\"\n",
             "32:25",
-            {"'c-e' is not among a, b, c-d", "did you mean 'c-d'?"}},
+            {"there are a, b, c-d", "did you mean 'c-d'?"}},
         Mistake{"unknown rule",
                 gas + among + "depth = { a = 1, b = 2, \"c-d\" = 2 }\nr0 = 1\nmixing.depth = \"geometrical\"\n",
                 "34:16",

@@ -479,7 +479,8 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"an unknown unit", with("unit = \"e\"", "unit = \"elephant\""), "10:37", {"unit: ", "elephant"}},
         Mistake{"a field of the base", with("name = \"way\"", "name = \"mass\""), "10:53", {"'mass'"}},
         Mistake{"a key of ensembles", with("name = \"way\"", "name = \"drift\""), "10:53", {"key of [[ensembles]]"}},
-        Mistake{"a name of files", with("name = \"way\"", "name = \"count\""), "10:53", {"in files and pictures"}},
+        Mistake{
+            "a name of files", with("name = \"way\"", "name = \"count\""), "10:53", {"trajectories need this name"}},
         Mistake{
             "a name of formulas", with("name = \"way\"", "name = \"time\""), "10:53", {"something else in formulas"}},
         Mistake{"an unknown key", with("kind = \"vector\"", "kynd = \"vector\""), "10:60", {"kynd", "kind"}},

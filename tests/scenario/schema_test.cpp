@@ -121,8 +121,9 @@ TEST(Tables, TellOfTheKeysThatAreRead) {
       {"split_cores", {start + ensemble("Spreading") + "[[split_cores]]\nevery = 1\nabove = 1\n" + wrong}},
       {"output", {start + "[output]\n" + wrong + atoms}}};
   // Beside the keys: fields of the classes, parameters of the laws.
-  std::set<std::string> const others{"mass",     "velocity",    "specific_energy", "range",       "depth",   "r0",
-                                     "friction", "temperature", "pressure",        "sound_speed", "position"};
+  std::set<std::string> const others{"mass",     "velocity",    "specific_energy", "range",    "depth",
+                                     "r0",       "sigma",       "epsilon",         "friction", "temperature",
+                                     "pressure", "sound_speed", "position"};
   for (auto const& table : scenario_tables()) {
     ASSERT_TRUE(texts.contains(table.name)) << table.name;
     std::set<std::string> read;

@@ -272,6 +272,7 @@ TEST(BarostatOfMolecules, RefusesInOneLine) {
   Simulation without(pairs, 0.01);
   without.add(Barostat(options, 1));
   without.add(behind);
+  without.integrate(charges, with_rigid_bonds(bonds, make_integrator(charges, Method::leap_frog)));
   EXPECT_EQ(message([&] { without.run(1); }),
             "barostat: rigid bonds of which no scheme knows would be stretched; MoleculeScheme::keeps() tells one");
   MoleculeScheme molecules(box);

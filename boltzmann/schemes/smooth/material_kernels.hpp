@@ -60,7 +60,7 @@ struct MaterialKernels {
   MaterialKernel rates = nullptr;      ///< adds to the influence
   MaterialKernel motion = nullptr;     ///< the local motion, into SmoothTransport's blocks
   MaterialKernel transport = nullptr;  ///< adds to the influence
-  double (*diffusivity)(void const* material, double const* particle) = nullptr;  ///< null: none
+  double (*diffusivity)(void const* material, double const* particle) = nullptr;      ///< null: none
   double (*shear_stiffness)(void const* material, double const* particle) = nullptr;  ///< null: none
   MaterialKernel cohesion = nullptr;     ///< into SmoothSolid's first block
   MaterialKernel solid_force = nullptr;  ///< adds the forces of the passes of solids to the influence
@@ -285,7 +285,8 @@ void add(Influence& to, Influence const& more) {
 /// evolves.
 template <class M, class P>
 Fluxes<P::dimension> find_strength(M const& material, MaterialTask const& task, std::size_t k, P& p,
-                                   Gradients<P::dimension> const& predicted, typename P::Influence& influence) {
+                                   Gradients<P::dimension> const& predicted,
+                                   typename P::Influence& influence) {  // long: most steps share most numbers
   constexpr int D = P::dimension;
   auto const& sums = reinterpret_cast<SolidSum<D, double> const*>(task.solid_sums)[k];
   double const volume = p.mass / p.density;
