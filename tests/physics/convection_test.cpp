@@ -50,11 +50,11 @@ struct Layer {
     for (auto& p : fluid) {
       double const x = p.position[0], y = p.position[1], stir = 0.3 * free_fall;
       p.mass = spacing * spacing;
-      p.range = 3 * spacing;
+      p.range = 5 * spacing;
       p.specific_energy = cv * (1 + difference * (0.5 - y)) + gas.stiffness;
       p.velocity = {-stir * std::sin(k * x) * std::cos(k * y), stir * std::cos(k * x) * std::sin(k * y)};
     }
-    scheme.emplace(box);
+    scheme.emplace(box, WeightShape::wendland);
     scheme->material(fluid, Newtonian<StiffenedGas>{gas, viscosity, 0, conductivity});
     scheme->artificial_viscosity({.alpha = 0.05, .beta = 0, .balsara = true});
     scheme->external(fluid, UniformGravity<2>{Vector{0.0, -gravity}});

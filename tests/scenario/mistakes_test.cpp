@@ -181,7 +181,7 @@ std::vector<Mistake> const rows{
     {"unknown key of a law",
      with("r0 = 4", "r0 = 4\nwidth = 1"),
      "29:1",
-     {"unknown key 'width'", "'lennard-jones'", "depth"}},
+     {"unknown key 'width'", "'lennard-jones'", "bzm show influences"}},
     {"unknown field",
      with("mass = \"40 amu\"", "mass = 40\ncharge = 1"),
      "20:1",

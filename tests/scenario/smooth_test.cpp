@@ -163,8 +163,8 @@ TEST(SmoothScenario, ChoosesACourantStepAndAsManyStepsAsATimeNeeds) {
     auto const scenario = read(replaced(gas, "step = 0.002\nsteps = 5", "step = " + step + "\ntime = 0.5"));
     double const longest = scenario->scheme<SmoothScheme>()->courant_step(), chosen = scenario->simulation->step_size();
     EXPECT_NEAR(chosen, part * longest, 1e-12 * longest);
-    // 0.4 h / c (1 + 0.6 alpha) of the fastest, c = sqrt(1.4 * 0.4 / density) or less
-    EXPECT_NEAR(longest, 0.4 * 0.15 / (std::sqrt(0.56) * (1 + 0.6 * 0.7)), 0.15 * longest);
+    // range^2 / 64 over the diffusivity, the larger of those of momentum and heat, at densities around 1
+    EXPECT_NEAR(longest, 0.3 * 0.3 / 64 / (0.03 / 0.8), 0.25 * longest);
     EXPECT_EQ(scenario->steps, static_cast<std::int64_t>(std::ceil(0.5 / chosen)));
     EXPECT_EQ(scenario->resolved.find("time ="), std::string::npos);
     EXPECT_EQ(scenario->resolved.find("courant"), std::string::npos);
