@@ -23,7 +23,7 @@ void convection(Program& program) {
   box.wall(1, Box::End::high, {.slips = false, .temperature = 1 - difference / 2});
 
   Ensemble<Smooth<2>> particles("fluid");
-  fill_load(particles, box, {.spacing = spacing, .density = 1, .range = 3 * spacing});
+  fill_load(particles, box, {.spacing = spacing, .density = 1, .range = 5 * spacing});
   double const stir = 0.3 * free_fall;  // two pairs of rolls, turning gently
   for (auto& p : particles) {
     double const x = pi * p.position[0], y = pi * p.position[1];
@@ -31,7 +31,7 @@ void convection(Program& program) {
     p.velocity = {-stir * std::sin(x) * std::cos(y), stir * std::cos(x) * std::sin(y)};
   }
 
-  SmoothScheme scheme(box);
+  SmoothScheme scheme(box, WeightShape::wendland);
   scheme.material(particles, Newtonian<StiffenedGas>{fluid, viscosity, 0, conductivity});
   scheme.artificial_viscosity({.alpha = 0.05, .beta = 0, .balsara = true});  // calms particles, not the rolls
   scheme.external(particles, UniformGravity<2>{{0, -gravity}});

@@ -183,8 +183,10 @@ TEST_P(Stopped, AndResumedLeavesTheSame) {
 
   auto const resumed = run({"resume", "stopped", "--threads", "1"});
   ASSERT_EQ(resumed.status, 0) << resumed.err;
-  EXPECT_EQ(fs::last_write_time(folder / "stopped/01-temperature-100-K-seed-5/diagnoses.csv"), first);
-  EXPECT_NE(resumed.out.find(" done before"), std::string::npos) << resumed.out;
+  if (GetParam() != SIGKILL) {  // which may come before runs of the last second are noted as done
+    EXPECT_EQ(fs::last_write_time(folder / "stopped/01-temperature-100-K-seed-5/diagnoses.csv"), first);
+    EXPECT_NE(resumed.out.find(" done before"), std::string::npos) << resumed.out;
+  }
   auto const whole = run(with({"--out", "whole"}));
   ASSERT_EQ(whole.status, 0) << whole.err;
   for (std::string const file : {"/sweep.csv", "/series.csv", "/fits.csv", "/runs.csv", "/sweep.toml"})
