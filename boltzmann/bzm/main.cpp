@@ -404,7 +404,7 @@ int main(int argc, char** argv) {
   bool const by_all = command == "run" || command == "resume" || command == "bench";
   try {
     started_with(argc, argv);
-    if (!by_all) {  // rank 0 does it alone, whoever starts several
+    if (!by_all) {  // only rank 0 runs these commands
       compare_start_of_ranks();
       if (launched().rank > 0) return 0;
       stay_alone();

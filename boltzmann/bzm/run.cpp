@@ -41,7 +41,7 @@ void print_heading(ScenarioSimulation const& scenario, std::string const& folder
   std::fflush(stdout);
 }
 
-/// What files hold that nothing uses, and groups without a particle: warnings also where all else is quiet.
+/// Prints notes on unused parts of files, and warnings of empty groups. Warnings are printed with --quiet, too.
 void print_notes(ScenarioSimulation const& scenario, bool quiet) {
   if (!team().first()) return;
   for (auto const& line : scenario.notes)

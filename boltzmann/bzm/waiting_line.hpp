@@ -35,7 +35,7 @@ class WaitingLine {
   WaitingLine(WaitingLine const&) = delete;
   WaitingLine& operator=(WaitingLine const&) = delete;
 
-  /// What is done from now on.
+  /// Sets the activity that the line names from now on.
   void doing(std::string what) {
     std::lock_guard const lock(mutex_);
     what_ = std::move(what);

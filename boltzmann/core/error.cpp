@@ -113,7 +113,7 @@ std::string quoted(std::string_view text) {
   constexpr std::size_t longest = 40;
   std::string shown(text.substr(0, longest));
   for (std::size_t k = 0; k < shown.size();) {
-    // What follows the end of `shown` belongs to a letter that is cut, which goes below.
+    // Bytes behind the end of `shown` belong to a letter that is cut; they are dropped below.
     std::size_t const count = letter_bytes(text.substr(k));
     unsigned char const letter = static_cast<unsigned char>(shown[k]);
     if (count == 0 || letter < ' ' || letter == 127) shown[k] = '?';

@@ -165,7 +165,7 @@ std::string different_starts(int rank, std::string const& own, std::string const
                      words);
 }
 
-/// Those of a file, each with a zero behind it.
+/// The words of a file in which each word ends with a zero byte.
 std::vector<std::string> texts_of(std::string const& path) {
   std::ifstream file(path);
   std::vector<std::string> texts;
@@ -199,7 +199,7 @@ std::vector<std::string> starts_beside() {
   return all;
 }
 
-/// What is wrong if not all ranks were started alike; empty if they were. For all ranks.
+/// Describes how the commands of the ranks differ; empty if they are the same. For all ranks.
 std::string different_start(Team& team) {
   auto const all = team.gather(start_words);
   for (std::size_t r = 1; r < all.size(); ++r)

@@ -166,7 +166,7 @@ double kinetic_energy(Ensembles of, int threads) {
 
 namespace {
 
-/// Of all that move and carry momentum, along each axis and in total: momentum, and mass behind it.
+/// Momentum along each axis of all moving particles, followed by their mass.
 std::array<double, 4> momentum_and_mass(Ensembles of, Box const* box, int threads) {
   auto const sums = sums_over_bodies<4>(of, box, threads, [](double mass, double const* velocity, int D, auto& terms) {
     for (int a = 0; a < D; ++a) terms[a] = mass * velocity[a];
@@ -191,7 +191,7 @@ Triple common_velocity(Ensembles of, int threads) {
 }
 
 KeptMomentum zero_momentum(Ensembles system, std::array<bool, 3> const& along, Box const* box, int threads) {
-  constexpr double zero = 1e-6;  // of k T, which a component that was drawn has as often as once in a thousand times
+  constexpr double zero = 1e-6;  // in k T; a drawn component is below it once in a thousand times
   KeptMomentum kept;
   if (std::find(along.begin(), along.end(), true) == along.end()) return kept;
   auto const total = momentum_and_mass(system, box, threads);

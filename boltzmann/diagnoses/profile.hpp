@@ -67,7 +67,7 @@ class MomentSums {
 
   double number_ = 0, mass_ = 0, volume_ = 0;
   double moving_mass_ = 0, freedom_ = 0, states_ = 0;  // freedom: along each axis, of the particles
-  Triple share_{};                                     // of the kept momentum, that the particles have by their mass
+  Triple share_{};                                     // this bin's part of the conserved momentum, by mass
   std::array<double, 3> mean_{};
   Tensor3 squares_{}, virial_{};
   double internal_ = 0, potential_ = 0, with_temperature_ = 0, inverse_temperature_ = 0;

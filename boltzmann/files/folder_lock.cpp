@@ -21,7 +21,7 @@ using Identity = std::pair<dev_t, ino_t>;
 
 std::mutex mutex;
 std::map<Identity, std::weak_ptr<void const>> held;
-std::set<Identity> with_window;  // of this process
+std::set<Identity> with_window;  // folders that this process shows in a window
 
 }  // namespace
 
