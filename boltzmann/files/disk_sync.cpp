@@ -26,8 +26,9 @@ void DelayedSync::flush(std::string const& folder) {
       ::syncfs(descriptor);
       ::close(descriptor);
     }
-    pause_ = std::max(1.0, 10 * seconds_since(begin));
+    pause_ = 10 * seconds_since(begin);
   }
+  pause_ = std::max(1.0, pause_);
   waiting_ = false;
   last_ = Clock::now();
 }

@@ -20,7 +20,7 @@ class DelayedSync {
   DelayedSync(DelayedSync const&) = delete;
   DelayedSync& operator=(DelayedSync const&) = delete;
 
-  /// Whether a second has passed since the last flush(), or ten times as long as that took.
+  /// True before the first flush(), and once a second has passed since the last one, or ten times as long as that took.
   bool due() const;
   /// Brings all files of the file system of this folder to the disk, if some wait.
   void flush(std::string const& folder);
@@ -28,7 +28,7 @@ class DelayedSync {
  private:
   friend int sync_file(int descriptor, bool data_only, bool ordered);
   bool lasting_, waiting_ = false;
-  double pause_ = 1;
+  double pause_ = 0;
   Clock::time_point last_ = Clock::now();
 };
 
