@@ -76,13 +76,14 @@ struct Launch {
 
   /// The first signal stops the run after its step, the second ends all ranks.
   void pass_on() {
-    ranks.read_new();
+    auto const found = ranks.read_new();
     ++signalled;
     if (signalled > 2) {
       send(ranks.all(), SIGKILL);
       kill(launcher, SIGKILL);
     } else if (signalled == 2) {
       send(ranks.all(), SIGUSR1);
+      send(found, SIGKILL);  // one signal would not end them
       kill(launcher, SIGTERM);
     } else if (!ranks.all().empty()) {
       send(ranks.all(), SIGUSR1);  // they tell the ranks of other machines
@@ -95,7 +96,7 @@ struct Launch {
   /// Ranks that begin after a signal stop, too.
   void welcome() {
     auto const found = ranks.read_new();
-    if (signalled > 0) send(found, SIGUSR1);
+    if (signalled > 0) send(found, signalled > 1 ? SIGKILL : SIGUSR1);
   }
 
   int status(int of_launcher) const {

@@ -45,8 +45,11 @@ class LocalRanks {
   /// All so far.
   std::vector<int> const& all() const { return all_; }
 
-  /// Called by a rank: reports it to the process that has started its launcher, if there is one.
+  /// Called by a rank: reports it to the process that has started its launcher, if there is one. From then on SIGUSR1
+  /// is counted while no SignalWatch lives; a second one ends the process with status 130.
   static void report();
+  /// How often it has come so; counting starts anew.
+  static int take_early_signals();
 
  private:
   int ends_[2] = {-1, -1};

@@ -6,7 +6,9 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -18,6 +20,13 @@ namespace boltzmann {
 namespace {
 
 constexpr char const* address_variable = "BOLTZMANN_LAUNCHED_BY";
+
+std::atomic<int> early_signals{0};
+static_assert(std::atomic<int>::is_always_lock_free);
+
+extern "C" void on_early_signal(int) {
+  if (early_signals.fetch_add(1) > 0) _exit(130);
+}
 
 }  // namespace
 
@@ -64,11 +73,19 @@ void LocalRanks::report() {
   if (!address || std::sscanf(address, "%ld %d", &process, &end) != 2 ||
       !std::string_view(address).ends_with(where_processes_are_numbered()))
     return;
+  // A signal may come at once, long before a run watches signals. By default it would kill, or be ignored and lost.
+  struct sigaction action {};
+  action.sa_handler = on_early_signal;
+  sigemptyset(&action.sa_mask);
+  action.sa_flags = SA_RESTART;
+  sigaction(SIGUSR1, &action, nullptr);
   int const pipe = open(fmt::format("/proc/{}/fd/{}", process, end).c_str(), O_WRONLY | O_CLOEXEC | O_NONBLOCK);
   if (pipe < 0) return;
   std::string const line = fmt::format("{}\n", getpid());
   [[maybe_unused]] auto const written = write(pipe, line.data(), line.size());  // at once, so lines do not mix
   close(pipe);
 }
+
+int LocalRanks::take_early_signals() { return early_signals.exchange(0); }
 
 }  // namespace boltzmann

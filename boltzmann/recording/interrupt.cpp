@@ -1,5 +1,6 @@
 // The signal handler: it may only set flags, so the simulation looks at its own after every step.
 #include <boltzmann/core/error.hpp>
+#include <boltzmann/core/launcher.hpp>
 #include <boltzmann/core/team.hpp>
 #include <boltzmann/recording/interrupt.hpp>
 #include <boltzmann/simulation/simulation.hpp>
@@ -78,6 +79,7 @@ SignalWatch::SignalWatch() {
     sigaction(signals[i], &action, &before[i]);
     if (signals[i] == SIGHUP && before[i].sa_handler == SIG_IGN) sigaction(SIGHUP, &before[i], nullptr);
   }
+  signals_seen += LocalRanks::take_early_signals();
 }
 
 SignalWatch::~SignalWatch() {

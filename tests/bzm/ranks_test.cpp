@@ -216,6 +216,24 @@ TEST_F(Ranks, ASecondSignalEndsAllAtOnceAlsoBehindALauncherThatForwardsNone) {
   EXPECT_TRUE(ranks("run").empty());
 }
 
+// Kind: a stop right after a start. The launcher's deafness is inherited, so ranks ignore signals until they watch them.
+TEST_F(Ranks, SignalsAtAnyMomentOfTheStartStopARun) {
+  DeafLauncher const launcher(folder);
+  for (int const wait : {0, 60, 120, 200, 300, 500}) {
+    std::string const out = "run" + std::to_string(wait);
+    SCOPED_TRACE(out);
+    auto words = endless(out);
+    Process going(bzm_words(words), folder.string());
+    std::this_thread::sleep_for(std::chrono::milliseconds(wait));
+    auto const since = std::chrono::steady_clock::now();
+    going.signal(SIGINT);
+    auto const status = going.wait().status;
+    EXPECT_TRUE(status == 130 || (wait < 200 && status == 128 + SIGINT)) << status;
+    EXPECT_LT(seconds_since(since), 10);
+    EXPECT_TRUE(ranks(out).empty());
+  }
+}
+
 TEST_F(Ranks, StartedByMpirunStopWhenOneOfThemOrTheLauncherIsSignalled) {
   auto words = endless("one");
   words.resize(words.size() - 2);
