@@ -33,7 +33,6 @@ void convection(Program& program) {
 
   SmoothScheme scheme(box, WeightShape::wendland);
   scheme.material(particles, Newtonian<StiffenedGas>{fluid, viscosity, 0, conductivity});
-  scheme.artificial_viscosity({.alpha = 0.05, .beta = 0, .balsara = true});  // calms particles, not the rolls
   scheme.external(particles, UniformGravity<2>{{0, -gravity}});
 
   double const duration = 40 / free_fall;

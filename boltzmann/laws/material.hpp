@@ -47,8 +47,8 @@ struct TransportCoefficients {
 //   Fluxes<D> fluxes(p, gradients)       strength, and other stress that is no Newtonian viscosity. Gradients do not see
 //                                        velocities that alternate from particle to particle, so such a stress does not
 //                                        damp them
-//   double diffusivity(p)                of momentum or heat, the larger, in length^2 / time: limits the step; with
-//                                        transport or fluxes
+//   double diffusivity(p)                of momentum or twice that of heat, the larger, in length^2 / time: limits the
+//                                        step; with transport or fluxes
 //   void rates(p, gradients, influence)  rates of further fields of p's class (the stress of a solid)
 //   double shear_stiffness(p)            shear modulus that is left, for the hourglass control of solids
 //   double energy(density)               barotropic: the specific energy is this function of the density, and does not

@@ -64,18 +64,18 @@ Decay decay(std::size_t n, double viscosity, double end_time) {
   return result;
 }
 
-// At a Reynolds number of 50. What the weights smooth away of the viscous force falls with the square of their range.
+// At a Reynolds number of 50. Too much viscosity of disordered particles and too little of smoothed gradients nearly
+// cancel with many particles, so no order is asked for.
 TEST(TaylorGreen, SpeedsDecayAsTheyShould) {
   double const viscosity = 0.02, end_time = 0.2;
   Decay const coarse = decay(32, viscosity, end_time), fine = decay(128, viscosity, end_time);
-  EXPECT_NEAR(fine.rate, 1, 0.02);
+  EXPECT_NEAR(coarse.rate, 1, 0.05);
+  EXPECT_NEAR(fine.rate, 1, 0.005);
   EXPECT_NEAR(fine.amplitude, 1, 0.01);
   EXPECT_NEAR(fine.speed, 1, 0.01);
   EXPECT_LT(fine.error, 0.03);
   EXPECT_LT(fine.momentum, 1e-13);
-  double const order = std::log((1 - coarse.rate) / (1 - fine.rate)) / std::log(4);
-  EXPECT_GT(order, 1.4);
-  EXPECT_LT(order, 2.2);
+  EXPECT_LT(std::abs(fine.rate - 1), 0.3 * std::abs(coarse.rate - 1));
 }
 
 TEST(TaylorGreen, DecayIsProportionalToTheViscosity) {

@@ -135,8 +135,10 @@ TEST(ViscousFlow, PoiseuilleAndCouetteOnALattice) {
 
 TEST(ViscousFlow, PoiseuilleAndCouetteOnADisorderedStart) {
   for (Setting const& flow : {Setting{}, couette()})
-    for (auto const density : {DensityFrom::summation, DensityFrom::continuity, DensityFrom::volumes})
-      expect_channel<2>(with(&Setting::jitter, 0.2, with(&Setting::density, density, flow)), 0.02);
+    // Summed densities of a disordered start have pressures of their own, whose flow is no matter of viscosity.
+    for (auto const& [density, jitter] :
+         {std::pair{DensityFrom::summation, 0.1}, {DensityFrom::continuity, 0.2}, {DensityFrom::volumes, 0.2}})
+      expect_channel<2>(with(&Setting::jitter, jitter, with(&Setting::density, density, flow)), 0.02);
 }
 
 TEST(ViscousFlow, PoiseuilleWithEveryWeightRangeAndDensity) {

@@ -34,7 +34,7 @@ struct Point {
   Tensor<D> stress{};  // the whole pressure tensor
   Vector<D> heat{};
   double shear_switch = 1, factor = 1;
-  Tensor<D> rotation{};  // of the local motion
+  Tensor<D> rotation{}, gradient{};  // of the local motion
   double normaliser = 0, expansion_push = 0;
 };
 
@@ -52,17 +52,10 @@ double transport_kernel(double r, double range) {
   return r < range ? D / (area * moment) * std::pow(1 - square(r / range), 4) / std::pow(range, D + 2) : 0;
 }
 
-/// The antisymmetric W that makes Sum w |v - W r|^2 least, by the normal equations for unit rotations.
+/// The W = Sum_k a_k U_k that makes Sum w |v - W r|^2 least, by the normal equations.
 template <int D>
-Tensor<D> local_rotation(std::vector<std::tuple<double, Vector<D>, Vector<D>>> const& neighbours) {
-  std::vector<Tensor<D>> units;
-  for (int a = 0; a < D; ++a)
-    for (int b = a + 1; b < D; ++b) {
-      Tensor<D> unit{};
-      unit[a][b] = 1;
-      unit[b][a] = -1;
-      units.push_back(unit);
-    }
+Tensor<D> best_fit(std::vector<Tensor<D>> const& units,
+                   std::vector<std::tuple<double, Vector<D>, Vector<D>>> const& neighbours) {
   std::size_t const n = units.size();
   std::vector<std::vector<double>> rows(n, std::vector<double>(n + 1, 0.0));
   for (auto const& [w, r, v] : neighbours)
@@ -76,9 +69,22 @@ Tensor<D> local_rotation(std::vector<std::tuple<double, Vector<D>, Vector<D>>> c
         double const factor = rows[k][i] / rows[i][i];
         for (std::size_t j = 0; j <= n; ++j) rows[k][j] -= factor * rows[i][j];
       }
-  Tensor<D> rotation{};
-  for (std::size_t i = 0; i < n; ++i) rotation += units[i] * (rows[i][n] / rows[i][i]);
-  return rotation;
+  Tensor<D> fit{};
+  for (std::size_t i = 0; i < n; ++i) fit += units[i] * (rows[i][n] / rows[i][i]);
+  return fit;
+}
+/// All tensors with one component of 1; `turning`: the antisymmetric ones of two.
+template <int D>
+std::vector<Tensor<D>> unit_tensors(bool turning) {
+  std::vector<Tensor<D>> units;
+  for (int a = 0; a < D; ++a)
+    for (int b = turning ? a + 1 : 0; b < D; ++b) {
+      Tensor<D> unit{};
+      unit[a][b] = 1;
+      if (turning) unit[b][a] = -1;
+      units.push_back(unit);
+    }
+  return units;
 }
 
 /// Viscosity and conduction, of particles that all have some (schemes/smooth/transport_passes.hpp has the equations).
@@ -107,7 +113,8 @@ void add_transport(std::vector<Point<D>>& points, M const& material, Each const&
       spread += w * norm2(r);
       resistance += w * norm2(r) / eta;
     });
-    a.rotation = local_rotation<D>(neighbours);
+    a.rotation = best_fit<D>(unit_tensors<D>(true), neighbours);
+    a.gradient = best_fit<D>(unit_tensors<D>(false), neighbours);
     double const bounded = std::max(spread, 0.5 * D);
     a.normaliser = D / bounded;
     a.expansion_push = square(a.normaliser) * (of(a).bulk_viscosity - 2.0 / D * bounded / resistance) * approach;
@@ -119,8 +126,11 @@ void add_transport(std::vector<Point<D>>& points, M const& material, Each const&
       auto const r = b.p.position - a.p.position, v = b.p.velocity - a.p.velocity;
       double const w = volume * weight(a, b), eta = mean(of(a).shear_viscosity, of(b).shear_viscosity);
       double const kappa = mean(a.normaliser * of(a).conductivity, b.normaliser * of(b).conductivity);
-      auto const from_a = (v - dot(a.rotation, r)) * (2 * eta * a.normaliser) + r * a.expansion_push;
-      auto const from_b = (v - dot(b.rotation, r)) * (2 * eta * b.normaliser) + r * b.expansion_push;
+      auto const damped = [&](Point<D> const& of) {
+        auto const sheared = dot(of.gradient - of.rotation, r), rest = v - dot(of.gradient, r);
+        return (sheared + rest * 0.5) * (2 * eta * of.normaliser) + r * of.expansion_push;
+      };
+      auto const from_a = damped(a), from_b = damped(b);
       rates[i].force += (from_a + from_b) * w;
       rates[i].heating += w * (dot(from_a, v) + 2 * kappa * (b.p.temperature - a.p.temperature));
     });

@@ -62,8 +62,10 @@ std::vector<oracle::Point<D>> copies(oracle::Point<D> const& point, Box const& b
             if (b != a) {
               image.stress[a][b] = -image.stress[a][b];
               image.stress[b][a] = -image.stress[b][a];
-              image.rotation[a][b] = -image.rotation[a][b];
-              image.rotation[b][a] = -image.rotation[b][a];
+              for (auto* motion : {&image.rotation, &image.gradient}) {
+                (*motion)[a][b] = -(*motion)[a][b];
+                (*motion)[b][a] = -(*motion)[b][a];
+              }
             }
         } else {
           continue;

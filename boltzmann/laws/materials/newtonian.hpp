@@ -52,12 +52,12 @@ struct Newtonian {
   }
 
   /// The largest of: shear_viscosity / rho, of vortices; (bulk_viscosity + 2 (1 - 1/D) shear_viscosity) / rho, of
-  /// sound; conductivity / (rho cv), of heat.
+  /// sound; 2 conductivity / (rho cv), of heat, whose shortest waves pairs damp twice as fast (Transport).
   template <class P>
   double diffusivity(P const& p) const {
     constexpr double flattening = 2 - 2.0 / P::dimension;
     double largest = max(shear_viscosity, bulk_viscosity + flattening * shear_viscosity);
-    if constexpr (has_specific_heat) largest = max(largest, conductivity / material.specific_heat());
+    if constexpr (has_specific_heat) largest = max(largest, 2 * conductivity / material.specific_heat());
     double below = 0;
     if constexpr (requires { material.diffusivity(p); }) below = material.diffusivity(p);
     return largest / p.density + below;

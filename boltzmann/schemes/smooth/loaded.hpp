@@ -2,6 +2,7 @@
 #pragma once
 
 #include <boltzmann/core/in_dimension.hpp>
+#include <boltzmann/schemes/smooth/smooth_point.hpp>
 #include <boltzmann/schemes/smooth/smooth_scheme.hpp>
 
 #include <limits>
@@ -9,6 +10,13 @@
 #include <vector>
 
 namespace boltzmann {
+
+/// How many blocks of a row SmoothTransport has behind SmoothFluid.
+inline std::size_t transport_blocks(int dimension) {
+  return in_dimension(dimension, [](auto d) {
+    return (sizeof(SmoothTransport<d>) - sizeof(SmoothFluid<d>)) / sizeof(double) / row_block;
+  });
+}
 
 struct SmoothScheme::Loaded {
   AnyEnsemble* ensemble;

@@ -115,23 +115,55 @@ inline double resistance(double conductance) {
   return conductance > 1 / unlimited_resistance ? 1 / conductance : unlimited_resistance;
 }
 
-/// The rotation W that minimises Sum w |v - W r|^2: xy, xz, yz.
+/// A tensor X with X . m = b, for a symmetric m without negative eigenvalues. Directions that m does not have are left
+/// out, so that products are those of least squares there, too.
 template <int D>
-void find_rotation(MotionSum<D, double> const& sums, double* rotation) {
-  double const* const inertia = sums.inertia;
-  if constexpr (D == 1) {
-    rotation[0] = 0;
-  } else if constexpr (D == 2) {
-    rotation[0] = inertia[0] > 0 ? sums.turning[0] / inertia[0] : 0;
+Tensor<D> solved(Tensor<D> b, Tensor<D> m) {
+  constexpr double least = 1e-12;  // pivots below this part of the trace are rounding
+  double const smallest = least * trace(m);
+  int order[D], found = 0;
+  bool used[D]{};
+  for (; found < D; ++found) {
+    int p = -1;
+    for (int q = 0; q < D; ++q)
+      if (!used[q] && m[q][q] > (p < 0 ? smallest : m[p][p])) p = q;
+    if (p < 0) break;
+    used[p] = true;
+    order[found] = p;
+    for (int q = 0; q < D; ++q) {
+      if (used[q]) continue;
+      double const factor = m[q][p] / m[p][p];
+      for (int c = 0; c < D; ++c) m[q][c] -= factor * m[p][c];
+      for (int a = 0; a < D; ++a) b[a][q] -= factor * b[a][p];
+    }
+  }
+  Tensor<D> x{};
+  for (int k = found; k-- > 0;)
+    for (int a = 0; a < D; ++a) {
+      int const p = order[k];
+      double sum = b[a][p];
+      for (int later = k + 1; later < found; ++later) sum -= m[p][order[later]] * x[a][order[later]];
+      x[a][p] = sum / m[p][p];
+    }
+  return x;
+}
+
+/// The rotation W for which Sum w |v - W r|^2 is least.
+template <int D>
+Tensor<D> rotation_of(MotionSum<D, double> const& sums) {
+  auto const turning = sums.flow - transpose(sums.flow);
+  double const size = trace(sums.moments);
+  if (D == 1 || !(size > 0)) return {};
+  if constexpr (D == 3) {
+    // The derivatives by W_ab vanish: three equations, singular if all neighbours are on one line, about which nothing
+    // turns.
+    auto const& m = sums.moments;
+    Tensor<3> const matrix{m[0][0] + m[1][1], m[1][2],  -m[0][2], m[1][2],          m[0][0] + m[2][2],
+                           m[0][1],           -m[0][2], m[0][1],  m[1][1] + m[2][2]};
+    auto const x = solved(Tensor<3>{turning[0][1], turning[0][2], turning[1][2], 0, 0, 0, 0, 0, 0}, matrix);
+    return {0, x[0][0], x[0][1], -x[0][0], 0, x[0][2], -x[0][1], -x[0][2], 0};
   } else {
-    // The derivatives by W_ab vanish: a matrix of three numbers, singular only if all neighbours are on one line, about
-    // which nothing turns.
-    double const trace = inertia[0] + inertia[3] + inertia[5], scale = trace > 0 ? 1 / trace : 0;
-    double const xx = inertia[0] * scale, xy = inertia[1] * scale, xz = inertia[2] * scale, yy = inertia[3] * scale,
-                 yz = inertia[4] * scale, zz = inertia[5] * scale, least = 1e-13;
-    Tensor<3> const matrix{xx + yy + least, yz, -xz, yz, xx + zz + least, xy, -xz, xy, yy + zz + least};
-    auto const solution = dot(inverse(matrix), Vector<3>{sums.turning[0], sums.turning[1], sums.turning[2]} * scale);
-    for (int n = 0; n < 3; ++n) rotation[n] = solution[n];
+    return turning * (1 / size);
   }
 }
 
@@ -182,16 +214,18 @@ void find_motion(void const* the_material, MaterialTask const& task, std::size_t
   M const& material = *static_cast<M const*>(the_material);
   each_member<P>(task, begin, end, [&](std::size_t k, std::size_t, P& p) {
     auto const& sums = reinterpret_cast<MotionSum<D, double> const*>(task.motion)[k];
-    double* const first = task.transport + row_block * k;
-    double* const second = first + task.block_stride;
+    double* const block = task.transport + row_block * k;
     double const spread = max(sums.spread, 0.5 * D), normaliser = D / spread, expansion = normaliser * sums.approach;
     // Of the pairs: the part of the pair viscosity that opposes an even expansion, no more than they dissipate.
     double const in_pairs = sums.resistance > 0 ? 2.0 / D * spread / sums.resistance : 0;
-    first[2] /= normaliser;
-    first[3] = normaliser * (transport_of(material, p).bulk_viscosity - in_pairs) * expansion;
-    second[0] = normaliser;
-    find_rotation(sums, second + 1);
-    for (int n = 0; n < sums.axes; ++n) second[1 + n] *= normaliser;
+    block[2] /= normaliser;
+    block[3] = normaliser * (transport_of(material, p).bulk_viscosity - in_pairs) * expansion;
+    // The gradient G for which Sum w |v - G r|^2 is least.
+    auto const gradient = solved<D>(sums.flow, sums.moments);
+    auto const motion = (rotation_of(sums) - gradient * (1 - rest_share)) * normaliser;
+    block[task.block_stride] = normaliser * rest_share;
+    for (std::size_t n = 1; n <= D * D; ++n)
+      block[(1 + n / row_block) * task.block_stride + n % row_block] = motion[(n - 1) / D][(n - 1) % D];
   });
 }
 

@@ -15,9 +15,9 @@ namespace {
 
 constexpr double courant_number = 0.4;
 constexpr double rows_number = 0.35;  // rows of a solid swing against each other with up to 4.7 shear speed / spacing
-// Alternating rows lose velocity at the rate 4 nu Sum V K = 48 nu / range^2 in 2D and 52 in 3D, and half as much again
-// where they touch a thicker fluid. Leap-frog is stable up to 1 / rate.
-constexpr double diffusion_number = 1.0 / 64;
+// Alternating rows lose velocity at the rate 4 s nu Sum V K = 24 nu / range^2 in 2D and 26 in 3D (s: rest_share), and half
+// as much again where they touch a thicker fluid. Leap-frog is stable up to 1 / rate.
+constexpr double diffusion_number = 1.0 / 32;
 constexpr double alone = 0.8;  // the part of the density that is one's own
 
 double smoothing_length(WeightShape shape) {

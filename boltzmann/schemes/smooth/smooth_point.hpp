@@ -51,8 +51,9 @@ struct SmoothTransport : SmoothFluid<D, Real> {
   Real inverse_viscosity;     ///< 1 / shear viscosity; unlimited_resistance where there is none
   Real inverse_conductivity;  ///< 1 / (normaliser * conductivity); likewise
   Real expansion_push;        ///< what bulk viscosity makes of the local rate of expansion
-  Real normaliser;            ///< 1 / (sum of second moments of the kernel), 1 in a continuum
-  Real rotation[3];           ///< normaliser * W of the local rotation, v = W r: xy, xz, yz; in 2D xy alone
+  Real friction;              ///< c s: what velocities of neighbours count
+  Real motion[D * D];         ///< c (W - (1 - s) G): what the local motion counts, by rows
+  Real unread_here[(3 - D * D % 4) % 4];
 };
 /// Instead of infinity, whose products with zero would not be numbers.
 inline constexpr double unlimited_resistance = 1e100;
@@ -65,16 +66,15 @@ struct SmoothMatter : SmoothTransport<D, Real> {
   Vector<D, Real> heat;
 };
 
-/// An antisymmetric tensor, as SmoothTransport holds it, times a vector.
+/// A tensor, as SmoothTransport holds it, times a vector.
 template <int D, class Real>
-[[gnu::always_inline]] inline Vector<D, Real> rotation_times(Real const* rotation, Vector<D, Real> const& r) {
-  if constexpr (D == 1)
-    return {Real(0.0)};
-  else if constexpr (D == 2)
-    return {rotation[0] * r[1], -rotation[0] * r[0]};
-  else
-    return {rotation[0] * r[1] + rotation[1] * r[2], rotation[2] * r[2] - rotation[0] * r[0],
-            -rotation[1] * r[0] - rotation[2] * r[1]};
+[[gnu::always_inline]] inline Vector<D, Real> motion_times(Real const* motion, Vector<D, Real> const& r) {
+  Vector<D, Real> v;
+  for (int a = 0; a < D; ++a) {
+    v[a] = motion[D * a] * r[0];
+    for (int b = 1; b < D; ++b) v[a] = v[a] + motion[D * a + b] * r[b];
+  }
+  return v;
 }
 
 /// A symmetric tensor, as SmoothMatter holds it, times a vector.

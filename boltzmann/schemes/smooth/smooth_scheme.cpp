@@ -27,9 +27,6 @@ constexpr std::size_t blocks_of = (sizeof(Particle) / sizeof(double) + row_block
 std::size_t place_blocks(int dimension) {
   return in_dimension(dimension, [](auto d) { return row_stride<SmoothPlace<d>> / row_block; });
 }
-std::size_t transport_blocks(int dimension) {
-  return in_dimension(dimension, [](auto d) { return blocks_of<SmoothTransport<d>> - blocks_of<SmoothFluid<d>>; });
-}
 std::size_t matter_blocks(int dimension) {
   return in_dimension(dimension, [](auto d) { return blocks_of<SmoothMatter<d>> - blocks_of<SmoothTransport<d>>; });
 }
@@ -51,9 +48,9 @@ std::vector<ImageComponent> image_components(int dimension, std::size_t blocks) 
     }
     components[fluid + 2] = {ImageRule::temperature, 0, 0};
     if (blocks == blocks_of<SmoothFluid<D>>) return components;
-    std::size_t next = fluid + 2 * row_block + 1;  // rotation
+    std::size_t next = fluid + 2 * row_block + 1;  // motion
     for (int a = 0; a < D; ++a)
-      for (int b = a + 1; b < D; ++b) components[next++] = {ImageRule::tensor, a, b};
+      for (int b = 0; b < D; ++b) components[next++] = {ImageRule::tensor, a, b};
     if (blocks == blocks_of<SmoothTransport<D>>) return components;
     next = blocks_of<SmoothTransport<D>> * row_block + 1;
     for (int a = 0; a < D; ++a)

@@ -93,8 +93,9 @@ class SmoothScheme final : public Scheme {
   void skin(double length);
 
   /// The longest step that follows sound, forces and diffusion from particle to particle: the smallest of 0.4 h / (c (1
-  /// + 0.6 alpha)), sqrt(h / acceleration) / 4 and range^2 / 64 over the diffusivity, h being the smoothing length: half
-  /// the range, or a third for the quintic spline; in solids also 0.35 spacing / shear speed, for hourglass control. Accelerations are those of the last calculation, if there was one.
+  /// + 0.6 alpha)), sqrt(h / acceleration) / 4 and range^2 / 32 over the diffusivity, h being the smoothing length: half
+  /// the range, or a third for the quintic spline; in solids also 0.35 spacing / shear speed, for hourglass control.
+  /// Accelerations are those of the last calculation, if there was one.
   double courant_step();
 
   void add_influences(double time) override;

@@ -9,7 +9,7 @@ using namespace detail;
 
 /// The local motion of each particle, into the blocks of transport.
 void SmoothScheme::find_motion(Recipe const& recipe, SortedCopy& copy) {
-  std::size_t const first = copy.blocks() + 1, last = first + 2;
+  std::size_t const first = copy.blocks() + 1, last = first + transport_blocks(box().dimension());
   std::size_t const components =
       in_dimension(box().dimension(), [](auto d) { return sizeof(MotionSum<d, double>) / sizeof(double); });
   run_pass(recipe.transport_passes->motion, components, sums_);

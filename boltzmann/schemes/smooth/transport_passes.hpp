@@ -1,16 +1,20 @@
 // Viscosity and conduction of smooth particles: passes over pairs.
 //
-// The motion around particle i is a rigid rotation W_i, an even expansion, and a rest that is sheared. With r = x_j - x_i,
-// v = v_j - v_i, volumes V, a kernel K that has the second moments Sum_j V_j K r_a r_b = delta_ab in a continuum, and the
-// harmonic mean eta_ij of both shear viscosities, the particle dissipates
-//   V_i Phi_i = V_i [2 c_i Sum_j V_j K eta_ij |v - W_i r|^2 + (zeta_i - 2 eta_i / D) d_i^2],
-//   d_i = c_i Sum_j V_j K r.v (div v),   c_i = D / Sum_j V_j K r^2,   W_i: the minimum of the first sum.
+// Around particle i the velocities are v = G_i r + rest, and G_i = W_i + S_i: a rotation and a strain, both by least
+// squares. With r = x_j - x_i, v = v_j - v_i, volumes V, a kernel K that has the second moments
+// Sum_j V_j K r_a r_b = delta_ab in a continuum, and the harmonic mean eta_ij of both shear viscosities, the particle
+// dissipates
+//   V_i Phi_i = V_i {2 c_i Sum_j V_j K eta_ij [|v - W_i r|^2 - (1 - s) |v - G_i r|^2] + (zeta_i - 2 eta_i / D) d_i^2},
+//   d_i = c_i Sum_j V_j K r.v (div v),   c_i = D / Sum_j V_j K r^2,   W_i, G_i: the minima of their sums.
 // In a linear flow this is 2 eta E:E + (zeta - 2 eta / D) (div v)^2 wherever second moments are isotropic: on lattices
-// exactly. Forces are the derivatives of Rayleigh's dissipation function, F_i = -d/dv_i Sum_k V_k Phi_k / 2:
-//   F_ij = V_i V_j K {2 eta_ij [c_i (v - W_i r) + c_j (v - W_j r)] + (b_i + b_j) r},   b_i = c_i (zeta_i - 2 eta_i / D) d_i.
-// They conserve linear momentum by symmetry, and angular momentum, since Sum_j V_j K eta_ij r x (v - W_i r) = 0 for each i.
-// Particle i is heated by V_i Phi_i >= 0, so total energy is conserved and no entropy is lost. Rows that alternate have
-// W = 0 and d = 0, so all of their motion is damped: there is no null mode.
+// exactly. The rest is damped by the share s. With s = 1 neighbours alone count; in a disordered fluid that damps the
+// noise in their velocities, too, which the flow has to feed: it is too viscous. With s = 0 rows that alternate would not
+// be damped at all, which is the null mode of nested gradients. docs/guide/continuum.md has figures for several s.
+// Forces are the derivatives of Rayleigh's dissipation function, F_i = -d/dv_i Sum_k V_k Phi_k / 2:
+//   F_ij = V_i V_j K {2 eta_ij [c_i (s v - M_i r) + c_j (s v - M_j r)] + (b_i + b_j) r},
+//   M_i = W_i - (1 - s) G_i,   b_i = c_i (zeta_i - 2 eta_i / D) d_i.
+// They conserve linear momentum by symmetry, and angular momentum, since Sum_j V_j K eta_ij r x (s v - M_i r) = 0 for
+// each i. Particle i is heated by V_i Phi_i >= 0, so total energy is conserved and no entropy is lost.
 //
 // K. Mueller, D. A. Fedosov, G. Gompper (J. Comput. Phys. 281, 301, 2015) conserve angular momentum by the same friction
 // between velocities v - W r, with a spin of each particle in place of the local rotation. Harmonic means and heat:
@@ -25,15 +29,18 @@
 
 namespace boltzmann {
 
+/// s, chosen as small as fast damping of the shortest waves allows: at 0.27 of their rate in a continuum on a square lattice
+/// with ranges of 3 spacings.
+inline constexpr double rest_share = 0.5;
+
 /// The sums from which a particle's local motion follows, w = V_j K eta_ij.
 template <int D, class Real>
 struct MotionSum {
-  static constexpr int axes = D == 3 ? 3 : 1;  // of rotation; in 1D one that stays zero
-  Real approach;                               ///< Sum V_j K r.v
-  Real spread;                                 ///< Sum V_j K r^2
-  Real resistance;                             ///< Sum V_j K r^2 / eta_ij
-  Real turning[axes];                          ///< Sum w (v_a r_b - v_b r_a): xy, xz, yz
-  Real inertia[axes * (axes + 1) / 2];         ///< 2D: Sum w r^2; 3D: Sum w r_a r_b: xx, xy, xz, yy, yz, zz
+  Real approach;            ///< Sum V_j K r.v
+  Real spread;              ///< Sum V_j K r^2
+  Real resistance;          ///< Sum V_j K r^2 / eta_ij
+  Tensor<D, Real> flow;     ///< Sum w v_a r_b
+  Tensor<D, Real> moments;  ///< Sum w r_a r_b
 };
 template <int D, class Real>
 struct TransportSum {
@@ -94,8 +101,8 @@ template <bool variable, class P>
   Real const against_shear = p.inverse_viscosity + q.inverse_viscosity,
              against_heat = p.inverse_conductivity + q.inverse_conductivity,
              both = 4.0 / (against_shear * against_heat), drag = both * against_heat;
-  auto const from_p = v * p.normaliser - rotation_times<D>(p.rotation, r);
-  auto const from_q = v * q.normaliser - rotation_times<D>(q.rotation, r);
+  auto const from_p = v * p.friction - motion_times<D>(p.motion, r);
+  auto const from_q = v * q.friction - motion_times<D>(q.motion, r);
   return ViscousPair<D, Real>{
       (from_p + from_q) * (weight * drag) + r * (weight * (p.expansion_push + q.expansion_push)),
       weight * (drag * dot(from_p, v) + p.expansion_push * dot(r, v)), weight * both * against_shear};
@@ -118,19 +125,11 @@ struct MotionPass {
     sum.approach = weight * dot(r, v);
     sum.spread = weight * r2;
     sum.resistance = sum.spread * resistance;
-    if constexpr (D == 1) {
-      sum.turning[0] = sum.inertia[0] = Real(0.0);
-    } else if constexpr (D == 2) {
-      sum.turning[0] = w * (v[0] * r[1] - v[1] * r[0]);
-      sum.inertia[0] = w * r2;
-    } else {
-      int n = 0, m = 0;
-      for (int a = 0; a < D; ++a)
-        for (int b = a; b < D; ++b) {
-          sum.inertia[n++] = w * r[a] * r[b];
-          if (a != b) sum.turning[m++] = w * (v[a] * r[b] - v[b] * r[a]);
-        }
-    }
+    for (int a = 0; a < D; ++a)
+      for (int b = 0; b < D; ++b) {
+        sum.flow[a][b] = w * v[a] * r[b];
+        sum.moments[a][b] = w * r[a] * r[b];
+      }
     return sum;
   }
 };
