@@ -97,6 +97,17 @@ bool is_held(MaterialTask const& task, P const& p) {
          (p.range <= task.shortest && wanted <= power<D>(task.shortest));
 }
 
+/// From the sums of the density pass, if the density is not the particle's own.
+template <class P>
+void find_density(MaterialTask const& task, std::size_t k, P& p) {
+  if (!task.density) return;
+  double const self = p.mass * task.self / power<P::dimension>(p.range);
+  if (task.factor)
+    p.density = reinterpret_cast<VariableDensitySum<double> const*>(task.density)[k].density + self;
+  else
+    p.density = reinterpret_cast<DensitySum<double> const*>(task.density)[k].density + self;
+}
+
 template <class M, class P>
 TransportCoefficients transport_of(M const& material, P const& p) {
   if constexpr (has_transport<M, P>)
@@ -134,17 +145,6 @@ void find_rotation(MotionSum<D, double> const& sums, double* rotation) {
     auto const solution = dot(inverse(matrix), Vector<3>{sums.turning[0], sums.turning[1], sums.turning[2]} * scale);
     for (int n = 0; n < 3; ++n) rotation[n] = solution[n];
   }
-}
-
-/// From the sums of the density pass, if the density is not the particle's own.
-template <class P>
-void find_density(MaterialTask const& task, std::size_t k, P& p) {
-  if (!task.density) return;
-  double const self = p.mass * task.self / power<P::dimension>(p.range);
-  if (task.factor)
-    p.density = reinterpret_cast<VariableDensitySum<double> const*>(task.density)[k].density + self;
-  else
-    p.density = reinterpret_cast<DensitySum<double> const*>(task.density)[k].density + self;
 }
 
 template <class P, class M>
