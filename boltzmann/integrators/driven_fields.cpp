@@ -99,7 +99,9 @@ class WithDrivenFields final : public Integrator, private Companion {
   void divide(Division* division) override { inner_->divide(division); }
   bool has_groups() const override { return inner_->has_groups(); }
   bool predicts_velocities() const override { return inner_->predicts_velocities(); }
-  double* half_step_velocities() override { return velocity_ >= 0 ? velocities_.data() : nullptr; }
+  double* half_step_velocities() override {
+    return velocity_ >= 0 ? velocities_.data() : inner_->half_step_velocities();
+  }
   bool takes_rotations() const override { return inner_->takes_rotations(); }
   void rotate(std::vector<Rotation> rotations) override { inner_->rotate(std::move(rotations)); }
   /// Those of leap-frog belong to the state between its steps, and stay with the scheme.

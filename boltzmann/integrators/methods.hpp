@@ -59,13 +59,13 @@ template <class F, int D>
     for (int b = 0; b < D; ++b) f(x.component[a][b]);
 }
 
-/// True for the position among the fields that the equations of motion name.
-/// True if a scheme may complete some fields of P inside a step (see Solid).
+/// True if a scheme may advance some fields of P inside a step (see Solid).
 template <class P>
 inline constexpr bool may_lag = requires(P& p) {
   p.lag;
   p.kick;
 };
+/// True for the position among the fields that the equations of motion name.
 template <class P, class Member>
 inline constexpr bool is_position = std::is_same_v<Member, decltype(&P::position)>;
 
@@ -133,8 +133,8 @@ class MovingRows {
   std::size_t stride() const { return ensemble_.stride(); }
   double* row(std::size_t i) const { return ensemble_.row(i); }
   P& operator[](std::size_t i) const { return *reinterpret_cast<P*>(ensemble_.row(i)); }
-  typename P::Influence const& influence_on(std::size_t i) const {
-    return *reinterpret_cast<typename P::Influence const*>(ensemble_.influence(i));
+  typename P::Influence& influence_on(std::size_t i) const {
+    return *reinterpret_cast<typename P::Influence*>(ensemble_.influence(i));
   }
 
  private:
@@ -294,11 +294,11 @@ class Alternating : public MethodOf<P> {
     });
     move.take(norm2(p.position - start), i);
   }
-  /// A kick without the fields that the scheme completes (see Solid); increment(x, dx).
+  /// A kick without the fields that the scheme advances (see Solid); increment(x, dx).
   template <class Increment>
   void kick_but_lagging(std::size_t i, double dt, Increment const& increment) {
-    P& p = this->ensemble_[i];
     bool const completed = this->ensemble_.influence_on(i).is_completed != 0;
+    P& p = this->ensemble_[i];
     this->equations(i, [&](auto member, auto const& derivative) {
       if constexpr (!is_position<P, decltype(member)>) {
         double const time = completed && P::lags(member) ? 0 : dt;
@@ -307,32 +307,41 @@ class Alternating : public MethodOf<P> {
     });
   }
   /// Both halves of the first kick of leap-frog and the drift between them; the second half is a prediction, which
-  /// `predicted` takes.
-  void kick_before_scheme(std::size_t i, double dt, LargestMove& move, double* predicted) {
+  /// `predicted` takes. The heat of half a kick is the work at its mean velocity.
+  void kick_before_scheme(std::size_t i, double dt, LargestMove& move, double* predicted, double* half_step) {
     P& p = this->ensemble_[i];
-    bool const completed = this->ensemble_.influence_on(i).is_completed != 0;
+    auto const& influence = this->ensemble_.influence_on(i);
+    auto const start = p.velocity;
     kick_but_lagging(i, 0.5 * dt, [](double& x, double dx) { x += dx; });
+    p.correct_heat(influence, (p.velocity - start) * 0.5, 0.5 * dt);
     drift(i, dt, move, [](double& x, double dx) { x += dx; });
     auto const middle = p.velocity;
+    each_component([&](double x) { *half_step++ = x; }, middle);
+    double const heat = p.specific_energy;
     kick_but_lagging(i, 0.5 * dt, [&](double& x, double dx) {
       *predicted++ = dx;
       x += dx;
     });
-    p.kick = completed ? p.velocity - middle : decltype(middle){};
-    p.lag = completed ? dt : 0;
+    p.kick = p.velocity - middle;
+    p.ahead = 0;
+    if (influence.is_completed != 0) {
+      p.lag = dt;
+      p.ahead = heat - p.specific_energy;  // the scheme predicts it
+      p.specific_energy = heat;
+    }
   }
-  /// The second kick; the fields that lag take the whole step.
+  /// The second kick. The heating is brought to the velocity at its end, for the kick that follows, too.
   void kick_after_scheme(std::size_t i, double dt, double const* predicted) {
     P& p = this->ensemble_[i];
-    bool const completed = p.lag != 0;
-    this->equations(i, [&](auto member, auto const& derivative) {
-      if constexpr (!is_position<P, decltype(member)>) {
-        double const time = completed && P::lags(member) ? dt : 0.5 * dt;
-        each_component([&](double& x, double rate) { x += time * rate - *predicted++; }, p.*member, derivative);
-      }
-    });
+    auto& influence = this->ensemble_.influence_on(i);
+    auto const start = p.velocity;
+    p.specific_energy -= p.ahead;
+    kick_but_lagging(i, 0.5 * dt, [&](double& x, double dx) { x += dx - *predicted++; });
+    auto const change = p.velocity - start;
+    p.correct_heat(influence, (change - p.kick) * 0.5, 0.5 * dt);
+    influence.heating -= dot(influence.inner_force, change);
     p.kick = {};
-    p.lag = 0;
+    p.lag = p.ahead = 0;
   }
   /// Runs the second kick, which must not forget how far the drift went.
   template <class Function>
@@ -467,6 +476,7 @@ class LeapFrog final : public Alternating<P> {
  public:
   using Alternating<P>::Alternating;
   bool predicts_velocities() const override { return predicts; }
+  double* half_step_velocities() override { return half_steps_.empty() ? nullptr : half_steps_.data(); }
   bool takes_rotations() const override { return true; }
   void rotate(std::vector<Rotation> rotations) override { rotations_ = std::move(rotations); }
   /// Rotations turn all before others are moved.
@@ -478,8 +488,11 @@ class LeapFrog final : public Alternating<P> {
     if (stage == 0) {
       for (auto const& rotation : rotations_) turn(rotation, 0.5 * dt);
       if constexpr (predicts) kicks_.resize(kicked * this->ensemble_.size());
+      if constexpr (predicts && may_lag<P>) half_steps_.resize(P::dimension * this->ensemble_.size());
       this->each([this, dt, plain, kicked](std::size_t i, LargestMove& move) {
-        if constexpr (predicts && may_lag<P>) return this->kick_before_scheme(i, dt, move, kicks_.data() + kicked * i);
+        if constexpr (predicts && may_lag<P>)
+          return this->kick_before_scheme(i, dt, move, kicks_.data() + kicked * i,
+                                          half_steps_.data() + P::dimension * i);
         this->kick(i, 0.5 * dt, plain);
         this->drift(i, dt, move, plain);
         if constexpr (predicts) {
@@ -575,7 +588,8 @@ class LeapFrog final : public Alternating<P> {
   }
 
   std::vector<Rotation> rotations_;
-  std::vector<double> kicks_;  // of the prediction, kicked() numbers a particle
+  std::vector<double> kicks_;       // of the prediction, kicked() numbers a particle
+  std::vector<double> half_steps_;  // half_step_velocities() of classes with fields that lag
 };
 
 template <class P>

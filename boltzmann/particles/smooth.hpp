@@ -60,7 +60,8 @@ struct SolidInfluence : SmoothInfluence<D, Real> {
   Real plastic_rate;
   Real damage_rate;
   Vector<D, Real> hourglass_rate;
-  Real is_completed;  ///< not 0: the scheme brings fields that lag up to date, see Solid
+  Vector<D, Real> inner_force;  ///< the part of the force whose work is heat
+  Real is_completed;            ///< not 0: the scheme advances the fields that lag, see Solid
 };
 
 /// A piece of a solid: it remembers how it has been sheared.
@@ -76,19 +77,25 @@ struct Solid : Smooth<D, Real> {
   Vector<D, Real> hourglass_strain;  ///< how far it has left the linear motion of its neighbours, in spacings
 
   // Inside a step of leap-frog only, else 0. Strain follows from velocities as positions do. Leap-frog is stable if it
-  // advances stress like positions: by the velocities in the middle of the step, before the forces at its end. The
-  // scheme finds rates from velocity - kick, and forces from fields that it has advanced by lag times these rates.
-  // Leap-frog leaves that to it where the influence says so (is_completed).
-  Vector<D, Real> kick;  ///< what the velocity is ahead of the middle of the step
-  Real lag;              ///< the time by which fields that lag() are behind the others
+  // advances stress like positions: by the velocities of the half step, before the forces at the end of the step. If
+  // is_completed is set, leap-frog leaves that to the scheme, which finds rates from velocity - kick.
+  Vector<D, Real> kick;  ///< the velocity minus that of the half step
+  Real lag;              ///< the time by which the fields that lag() are behind the others; the scheme clears it
+  Real ahead;            ///< what the specific energy that forces see is ahead of leap-frog's own prediction
   /// True for the fields that follow from strain.
   template <class Member>
   static constexpr bool lags(Member member) {
     if constexpr (std::is_same_v<Member, decltype(&Solid::density)>)
-      return member == static_cast<Member>(&Solid::density) || member == static_cast<Member>(&Solid::specific_energy);
+      return member == static_cast<Member>(&Solid::density);
     else
       return std::is_same_v<Member, decltype(&Solid::stress)> || std::is_same_v<Member, decltype(&Solid::damage)> ||
              std::is_same_v<Member, decltype(&Solid::hourglass_strain)>;
+  }
+
+  /// Replaces the heat of a time by that for velocities that differ by `change` from those of the heating. Its sum over
+  /// all particles is minus the work on the motion, so that total energy is conserved to rounding.
+  void correct_heat(Influence const& influence, Vector<D, Real> const& change, Real time) {
+    this->specific_energy -= dot(influence.inner_force, change) * time / this->mass;
   }
 
   static void equations(auto const& p, auto const& influence, auto const& rate) {

@@ -224,11 +224,20 @@ class HalfStepVelocities {
   std::vector<double> predicted_;
 };
 
+/// True if velocities may change where a particle leaves.
+bool changes_velocities(Box const& box) {
+  bool changes = box.sheared() || !box.regions().empty();
+  for (int a = 0; a < box.dimension(); ++a)
+    changes = changes || (box.boundary(a) != Boundary::periodic && box.boundary(a) != Boundary::open);
+  return changes;
+}
+
 }  // namespace
 
 /// Puts back what has left the box during a step.
 void Simulation::keep_in_box(Part& part) {
-  HalfStepVelocities const half_step(*part.ensemble, part.integrator->half_step_velocities());
+  bool const changes = changes_velocities(part.home->box());
+  HalfStepVelocities const half_step(*part.ensemble, changes ? part.integrator->half_step_velocities() : nullptr);
   try {
     Division* const division = is_divided() ? division_.get() : nullptr;
     work_ += part.home->box().apply(*part.ensemble, part.home->threads(), division);

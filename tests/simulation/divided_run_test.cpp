@@ -297,6 +297,13 @@ INSTANTIATE_TEST_SUITE_P(
                     Shipped{"electron-gas-2d", {}, 15}),
     test::name_of);
 
+// Walls reflect the velocities of the half step, from which solids find their strain.
+TEST(DividedRun, ReflectsSolids) {
+  expect_same_bits(scenario("penetration", {"box.low=[-1.5, -2.5]", "box.high=[1, 2.5]", "box.boundary=reflecting",
+                                            "ensembles.rod.velocity=['-1.5 km/s', 0]"}),
+                   16, {2, 3});
+}
+
 TEST(DividedRun, GoesOnWithAnyNumberOfRanks) {
   expect_to_go_on([](World& world) { melt<3>(world, 6, 2.0, Boundary::periodic); });
   expect_to_go_on(with_a_few_ahead);  // whose references were moved, whatever ranks knew them

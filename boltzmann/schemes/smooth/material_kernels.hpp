@@ -63,6 +63,7 @@ struct MaterialKernels {
   double (*diffusivity)(void const* material, double const* particle) = nullptr;      ///< null: none
   double (*shear_stiffness)(void const* material, double const* particle) = nullptr;  ///< null: none
   MaterialKernel cohesion = nullptr;     ///< into SmoothSolid's first block
+  MaterialKernel strain = nullptr;       ///< advances solids, adds to the influence
   MaterialKernel solid_force = nullptr;  ///< adds the forces of the passes of solids to the influence
   bool needs_gradients = false, has_transport = false, conducts = false, barotropic = false, constant_push = false;
   double push = 0;  ///< where it is constant
@@ -94,6 +95,17 @@ bool is_held(MaterialTask const& task, P const& p) {
   double const wanted = power<D>(task.spacings) * p.mass / p.density;  // range^D
   return (p.range >= task.longest && wanted >= power<D>(task.longest)) ||
          (p.range <= task.shortest && wanted <= power<D>(task.shortest));
+}
+
+/// From the sums of the density pass, if the density is not the particle's own.
+template <class P>
+void find_density(MaterialTask const& task, std::size_t k, P& p) {
+  if (!task.density) return;
+  double const self = p.mass * task.self / power<P::dimension>(p.range);
+  if (task.factor)
+    p.density = reinterpret_cast<VariableDensitySum<double> const*>(task.density)[k].density + self;
+  else
+    p.density = reinterpret_cast<DensitySum<double> const*>(task.density)[k].density + self;
 }
 
 template <class M, class P>
@@ -173,16 +185,10 @@ void find_state(void const* the_material, MaterialTask const& task, std::size_t 
   M const& material = *static_cast<M const*>(the_material);
   Found& found = task.found[begin / material_grain];
   each_member<P>(task, begin, end, [&](std::size_t k, std::size_t i, P& p) {
-    if (task.density) {
-      double const self = p.mass * task.self / power<D>(p.range);
-      if (task.factor) {
-        auto const& sums = reinterpret_cast<VariableDensitySum<double> const*>(task.density)[k];
-        p.density = sums.density + self;
-        bool const follows = task.adaptive && sums.stretch < 0 && !is_held(task, p);
-        task.factor[k] = follows ? -D * p.density / sums.stretch : 1;
-      } else {
-        p.density = reinterpret_cast<DensitySum<double> const*>(task.density)[k].density + self;
-      }
+    find_density(task, k, p);
+    if (task.density && task.factor) {
+      double const stretch = reinterpret_cast<VariableDensitySum<double> const*>(task.density)[k].stretch;
+      task.factor[k] = task.adaptive && stretch < 0 && !is_held(task, p) ? -D * p.density / stretch : 1;
     }
     if constexpr (is_barotropic<M>) p.specific_energy = material.energy(p.density);
     State const state = material.state(p);
@@ -204,6 +210,13 @@ void find_state(void const* the_material, MaterialTask const& task, std::size_t 
       values[2] = resistance(transport.conductivity);
     }
   });
+}
+
+/// Adds a force that the scheme heats for.
+template <class Influence, class Force>
+void push(Influence& influence, Force const& force) {
+  influence.force += force;
+  if constexpr (requires { influence.inner_force; }) influence.inner_force += force;
 }
 
 /// From the sums of the motion pass to what the transport pass reads. Where there are few neighbours (sprays), the
@@ -236,8 +249,12 @@ void add_transport(void const*, MaterialTask const& task, std::size_t begin, std
     auto& influence = reinterpret_cast<typename P::Influence*>(task.influence)[i];
     auto const& sums = reinterpret_cast<TransportSum<D, double> const*>(task.rates)[k];
     double const volume = p.mass / p.density;
-    influence.force += sums.force * volume;
-    if constexpr (!is_barotropic<M>) influence.heating += sums.heating * volume;
+    if constexpr (is_barotropic<M>) {
+      influence.force += sums.force * volume;
+    } else {
+      push(influence, sums.force * volume);
+      influence.heating += sums.heating * volume;
+    }
   });
 }
 
@@ -265,6 +282,7 @@ template <class P, class M>
 void find_cohesion(void const* the_material, MaterialTask const& task, std::size_t begin, std::size_t end) {
   [[maybe_unused]] M const& material = *static_cast<M const*>(the_material);
   each_member<P>(task, begin, end, [&](std::size_t k, std::size_t, P& p) {
+    find_density(task, k, p);
     double* const block = task.solid + row_block * k;
     double const per_volume = p.density / p.mass;
     block[0] = P::dimension == 2 ? std::sqrt(per_volume) : std::cbrt(per_volume);
@@ -279,12 +297,13 @@ void find_cohesion(void const* the_material, MaterialTask const& task, std::size
   });
 }
 
-/// L of the correction: 1 / B, but bounded; B^3 / (B^4 + e^4), normalised to 1 for B = 1, is never more than 5.7.
+/// L of the correction: 1 / B, but bounded; B^7 / (B^8 + e^8), normalised to 1 for B = 1, is never more than 6.9. The
+/// torque of the stress T on a particle is the antisymmetric part of B.L.T, so L.B has to be close to 1 also at corners.
 template <int D>
 Tensor<D> correction_of(Tensor<D> const& spread) {
-  constexpr double e4 = 1e-4;
-  auto const square = dot(spread, spread);
-  return dot(dot(square, spread), inverse(dot(square, square) + Tensor<D>::identity() * e4)) * (1 + e4);
+  constexpr double e8 = 1e-8;
+  auto const square = dot(spread, spread), fourth = dot(square, square);
+  return dot(dot(dot(fourth, square), spread), inverse(dot(fourth, fourth) + Tensor<D>::identity() * e8)) * (1 + e8);
 }
 
 /// The vector b for which Sum phi r (1 - b.r) = 0. Where all neighbours lie on a line or in a plane, b is along it.
@@ -295,15 +314,31 @@ Vector<D> tilt_of(SolidSum<D, double> const& sums) {
   return dot(inverse(sums.near_spread / size + Tensor<D>::identity() * 1e-10), sums.offset / size);
 }
 
-/// The particle with those fields that follow from strain at a later time.
+/// How the neighbours of a solid particle stand.
+template <int D>
+struct Surroundings {
+  SolidSum<D, double> const& sums;
+  Tensor<D> l;
+  Vector<D> tilt;
+  double scale;  ///< of hourglass control
+
+  Surroundings(MaterialTask const& task, std::size_t k)
+      : sums(reinterpret_cast<SolidSum<D, double> const*>(task.solid_sums)[k]),
+        l(correction_of(sums.spread)),
+        tilt(tilt_of(sums)),
+        scale(HourglassStencil::scale<D> /
+              max(sums.weight / (task.solid[row_block * k] * HourglassStencil::crowd<D>), 1.0)) {}
+  Vector<D> hourglass_velocity() const { return (sums.velocity - dot(tilt, sums.near_gradient)) * scale; }
+};
+
+/// The fields that follow from strain, at a later time.
 template <class P>
-P advanced(P p, typename P::Influence const& rates, double time) {
+void advance(P& p, typename P::Influence const& rates, double time) {
   p.density += rates.density_rate * time;
   p.stress += rates.stress_rate * time;
   p.plastic_strain += rates.plastic_rate * time;
   p.damage += rates.damage_rate * time;
   p.hourglass_strain += rates.hourglass_rate * time;
-  return p;
 }
 
 template <class Influence>
@@ -314,78 +349,67 @@ void add(Influence& to, Influence const& more) {
   for (std::size_t c = 0; c < sizeof(Influence) / sizeof(double); ++c) sum[c] += x[c];
 }
 
-/// What the force pass of solids reads of a particle, and the rates that go with it. Fields that lag are completed
-/// here: forces, and the fluxes that are returned, are of those. The pressure is corrected only where the density
-/// evolves.
+/// An estimate of what strains of the given rates heat a particle: V (G h . dh/dt - P : grad v).
 template <class M, class P>
-Fluxes<P::dimension> find_strength(M const& material, MaterialTask const& task, std::size_t k, P& p,
-                                   Gradients<P::dimension> const& predicted,
-                                   typename P::Influence& influence) {  // long: most steps share most numbers
-  constexpr int D = P::dimension;
-  auto const& sums = reinterpret_cast<SolidSum<D, double> const*>(task.solid_sums)[k];
-  double const volume = p.mass / p.density;
-  auto const l = correction_of(sums.spread);
-  Gradients<D> const gradients{dot(l, sums.gradient), predicted.temperature};
-  double const crowd = sums.weight / (task.solid[row_block * k] * HourglassStencil::crowd<D>);
-  double const scale = HourglassStencil::scale<D> / max(crowd, 1.0);
-  auto const tilt = tilt_of(sums);
-  typename P::Influence rates{};
-  auto const rates_of_hourglass = (sums.velocity - dot(tilt, sums.near_gradient)) * scale;
-  rates.hourglass_rate = rates_of_hourglass;
-  if (task.continuity) rates.density_rate = -p.density * trace(gradients.velocity);
-  if constexpr (has_rates<M, P>) {
-    typename P::Influence first = rates;  // for the middle of the step
-    if (p.lag != 0) material.rates(static_cast<P const&>(p), gradients, first);
-    material.rates(static_cast<P const&>(p.lag != 0 ? advanced(p, first, p.lag / 2) : p), gradients, rates);
-  }
-  rates.is_completed = 1;
-  add(influence, rates);
+double strain_power(M const& material, P const& p, Gradients<P::dimension> const& gradients,
+                    Vector<P::dimension> const& hourglass_velocity) {
+  double sum = dot(p.hourglass_strain, hourglass_velocity) * material.shear_stiffness(p) -
+               material.state(p).pressure * trace(gradients.velocity);
+  if constexpr (has_fluxes<M, P>)
+    sum -= contraction(transpose(material.fluxes(p, gradients).pressure), gradients.velocity);
+  return sum * p.mass / p.density;
+}
 
-  auto const strength = [&](P const& state, Tensor<D>& whole, Vector<D>& moment) {
-    Fluxes<D> fluxes{};
-    if constexpr (has_fluxes<M, P>) fluxes = material.fluxes(state, gradients);
-    whole = fluxes.pressure + Tensor<D>::identity() * material.state(state).pressure;
-    moment = state.hourglass_strain * (volume * material.shear_stiffness(state));
-    return fluxes;
-  };
-  Tensor<D> whole, whole_in_middle;
-  Vector<D> moment, moment_in_middle;
-  auto fluxes_in_middle = strength(p, whole_in_middle, moment_in_middle);
-  double const power =
-      dot(moment_in_middle, rates_of_hourglass) - volume * contraction(transpose(whole_in_middle), gradients.velocity);
-  P now = advanced(p, rates, p.lag);
-  now.specific_energy += power * p.lag / p.mass;
-  auto const fluxes = strength(now, whole, moment);
-  // The mean of the start of the step and its end: forces act for half a step before and behind each.
-  whole_in_middle = (whole_in_middle + whole) * 0.5;
-  moment_in_middle = (moment_in_middle + moment) * 0.5;
-  fluxes_in_middle.pressure = (fluxes_in_middle.pressure + fluxes.pressure) * 0.5;
-  // What the force pass adds to the stress that the rate pass uses.
-  auto const pushed = Tensor<D>::identity() * p.pressure;
-  auto const correction_for = [&](Fluxes<D> const& part, Tensor<D> const& all) {
-    Tensor<D> more = dot(l, part.pressure) - part.pressure;
-    if (task.continuity) more += dot(l, all - part.pressure) - pushed;
-    return more * volume;
-  };
-  auto const correction = correction_for(fluxes, whole);
-  if (p.lag != 0) {
-    // Passes find the work of the stress at the end of the step, and the rate pass that with the velocities there. What
-    // counts is the work in the middle.
-    double const factor = volume * (task.factor ? task.factor[k] : 1);
-    auto const earlier = correction_for(fluxes_in_middle, whole_in_middle);
-    influence.heating += dot(moment_in_middle - moment, rates_of_hourglass) +
-                         factor * (contraction(fluxes.pressure + pushed, sums.predicted) -
-                                   contraction(fluxes_in_middle.pressure + pushed, sums.in_middle)) +
-                         contraction(correction - earlier, sums.gradient);
+/// The rates of the fields that follow from strain. Fields that lag are advanced by them, by the midpoint rule: from the
+/// velocities of the half step and the state in the middle.
+template <class P, class M>
+void find_strain(void const* the_material, MaterialTask const& task, std::size_t begin, std::size_t end) {
+  if constexpr (is_solid<M, P>) {
+    M const& material = *static_cast<M const*>(the_material);
+    each_member<P>(task, begin, end, [&](std::size_t k, std::size_t i, P& p) {
+      Surroundings<P::dimension> const around(task, k);
+      auto const hourglass_velocity = around.hourglass_velocity();
+      Gradients<P::dimension> gradients{dot(around.l, around.sums.gradient), {}};
+      // From the places at the end of the step to those in the middle: x -> x - v lag / 2.
+      gradients.velocity += dot(gradients.velocity, gradients.velocity) * (p.lag / 2);
+      auto const rates_at = [&](P const& state) {
+        typename P::Influence rates{};
+        rates.hourglass_rate = hourglass_velocity;
+        if (task.continuity) rates.density_rate = -state.density * trace(gradients.velocity);
+        if constexpr (has_rates<M, P>) material.rates(state, gradients, rates);
+        return rates;
+      };
+      auto rates = rates_at(p);
+      if (p.lag != 0) {
+        P middle = p;
+        advance(middle, rates, p.lag / 2);
+        rates = rates_at(middle);
+        advance(p, rates, p.lag);
+        double const heat = strain_power(material, middle, gradients, hourglass_velocity) * (p.lag / 2) / p.mass;
+        p.specific_energy += heat;
+        p.ahead += heat;
+        p.lag = 0;
+      }
+      rates.is_completed = 1;
+      add(reinterpret_cast<typename P::Influence*>(task.influence)[i], rates);
+    });
   }
+}
+
+/// What the force pass of solids reads of a particle. The pressure is corrected only where the density evolves.
+template <int D>
+void write_strength(MaterialTask const& task, std::size_t k, Surroundings<D> const& around, Tensor<D> const& stress,
+                    double pressure, double volume, Vector<D> const& hourglass_stress) {
+  Tensor<D> corrected = stress;
+  if (task.continuity) corrected += Tensor<D>::identity() * pressure;
+  auto const correction = (dot(around.l, corrected) - corrected) * volume;
   double values[2 * D + D * D], *value = values;
-  for (double const x : moment.component) *value++ = x * scale;
-  for (double const x : tilt.component) *value++ = x;
+  for (double const x : hourglass_stress.component) *value++ = x * volume * around.scale;
+  for (double const x : around.tilt.component) *value++ = x;
   for (auto const& row : correction.component)
     for (double const x : row) *value++ = x;
   for (std::size_t c = 0; c < std::size(values); ++c)
     task.solid[(2 + c / row_block) * task.block_stride + row_block * k + c % row_block] = values[c];
-  return fluxes;
 }
 
 /// Nothing, where there is no strength.
@@ -400,7 +424,7 @@ void add_solid_force(void const*, MaterialTask const& task, std::size_t begin, s
   each_member<P>(task, begin, end, [&](std::size_t k, std::size_t i, P&) {
     auto const& found = reinterpret_cast<SolidForce<P::dimension, double> const*>(task.solid_sums)[k];
     auto& influence = reinterpret_cast<typename P::Influence*>(task.influence)[i];
-    influence.force += found.force;
+    push(influence, found.force);
     influence.heating += found.heating;
   });
 }
@@ -426,7 +450,13 @@ void find_fluxes(void const* the_material, MaterialTask const& task, std::size_t
     };
     [[maybe_unused]] auto& influence = reinterpret_cast<typename P::Influence*>(task.influence)[i];
     if constexpr (is_solid<M, P>) {
-      write(find_strength(material, task, k, p, gradients, influence));
+      Surroundings<D> const around(task, k);
+      gradients.velocity = dot(around.l, around.sums.gradient);
+      Fluxes<D> fluxes{};
+      if constexpr (has_fluxes<M, P>) fluxes = material.fluxes(p, gradients);
+      write(fluxes);
+      write_strength<D>(task, k, around, fluxes.pressure, p.pressure, p.mass / p.density,
+                        p.hourglass_strain * material.shear_stiffness(p));
     } else {
       if constexpr (has_fluxes<M, P>) write(material.fluxes(p, gradients));
       if constexpr (has_rates<M, P>) material.rates(static_cast<P const&>(p), gradients, influence);
@@ -447,8 +477,12 @@ void add_rates(void const*, MaterialTask const& task, std::size_t begin, std::si
       return;
     }
     auto const& rates = reinterpret_cast<RateSum<D, double> const*>(task.rates)[k];
-    influence.force += rates.acceleration * p.mass;
-    if constexpr (!is_barotropic<M>) influence.heating += rates.heating * p.mass;
+    if constexpr (is_barotropic<M>) {
+      influence.force += rates.acceleration * p.mass;
+    } else {
+      push(influence, rates.acceleration * p.mass);
+      influence.heating += rates.heating * p.mass;
+    }
     if constexpr (!is_solid<M, P>)
       if (task.continuity) influence.density_rate += rates.compression;
     if (task.adaptive) {
@@ -475,6 +509,7 @@ MaterialKernels material_kernels(M const& material) {
     };
   if constexpr (P::dimension > 1) {
     kernels.cohesion = detail::find_cohesion<P, M>;
+    kernels.strain = detail::find_strain<P, M>;
     kernels.solid_force = detail::add_solid_force<P>;
   }
   if constexpr (detail::is_solid<M, P>)

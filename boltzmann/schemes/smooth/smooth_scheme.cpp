@@ -500,9 +500,15 @@ void SmoothScheme::find(Until until, bool looking) {
                     matter = transport + transport_blocks(box().dimension()), end = copy.blocks() + copy.extra_blocks(),
                     state_end = transport + (recipe.transport ? 1 : 0);
 
+  std::vector<std::vector<double>> aside;  // rates that nobody wants
+  if (until == Until::fluxes)
+    for (auto& loaded : loaded_)
+      loaded->task.influence = aside.emplace_back(loaded->ensemble->size() * loaded->ensemble->influence_size()).data();
+
   // Step 2, and the state of step 4. Where forces need no density, it waits until somebody looks.
   if (!recipe.uniform || until == Until::state) {
     if (density_from_ == DensityFrom::summation) sum_densities(recipe);
+    if (recipe.solids && until != Until::state) strain_solids(recipe, copy);
     sound_rate_ = 0;
     run_material(&MaterialKernels::state);
     if (division_) bring(copy, fluid, state_end);
@@ -512,11 +518,6 @@ void SmoothScheme::find(Until until, bool looking) {
   if (recipe.transport) find_motion(recipe, copy);
 
   // Step 3, and the fluxes of step 4.
-  if (recipe.solids) sum_solids(recipe, copy);
-  std::vector<std::vector<double>> aside;  // rates that nobody wants
-  if (until == Until::fluxes)
-    for (auto& loaded : loaded_)
-      loaded->task.influence = aside.emplace_back(loaded->ensemble->size() * loaded->ensemble->influence_size()).data();
   if (recipe.gradients) {
     run_pass(mean_density_ == MeanDensity::geometric ? passes.gradients_geometric : passes.gradients, D * D + D, sums_);
     for (auto& loaded : loaded_) loaded->task.gradients = sums_.data();
@@ -539,15 +540,16 @@ SolidPasses SmoothScheme::solid_passes_of(Recipe const& recipe) const {
       [&](auto set) { return solid_passes<decltype(set)::value>(shape_, box().dimension(), recipe.own_ranges); });
 }
 
-/// What the strength of solids needs besides the gradients of all; see solid_passes.hpp.
-void SmoothScheme::sum_solids(Recipe const& recipe, SortedCopy& copy) {
+/// The strain of solids, before states and forces are found from it; see solid_passes.hpp.
+void SmoothScheme::strain_solids(Recipe const& recipe, SortedCopy& copy) {
   auto const D = static_cast<std::size_t>(box().dimension());
   std::size_t const first = copy.blocks() + copy.extra_blocks() - solid_blocks(box().dimension());
   run_material(&MaterialKernels::cohesion);
   if (division_) bring(copy, first, first + 2);
   copy.refresh_images(first, first + 2, threads_for(copy.owned(), 1, threads()));
-  run_pass(solid_passes_of(recipe).sums, 1 + 2 * D + 6 * D * D, solid_sums_);
+  run_pass(solid_passes_of(recipe).sums, 1 + 2 * D + 4 * D * D, solid_sums_);
   for (auto& loaded : loaded_) loaded->task.solid_sums = solid_sums_.data();
+  run_material(&MaterialKernels::strain);
 }
 
 void SmoothScheme::add_solid_forces(Recipe const& recipe) {

@@ -151,7 +151,7 @@ class SmoothScheme final : public Scheme {
   };
   Recipe recipe() const;
   SolidPasses solid_passes_of(Recipe const& recipe) const;
-  void sum_solids(Recipe const& recipe, SortedCopy& copy);
+  void strain_solids(Recipe const& recipe, SortedCopy& copy);
   void add_solid_forces(Recipe const& recipe);
   void set_tasks(Recipe const& recipe, SortedCopy& copy);
   void find_places(bool looking = false);

@@ -38,7 +38,7 @@ struct SmoothSolid : SmoothMatter<D, Real>, detail::BehindMatter<D, Real> {
   Real inverse_spacing;
   Real intact;  ///< as a neighbour in hourglass control: 1 whole, 0 broken or without a shear modulus
   Real volume;
-  Vector<D, Real> middle_velocity;  ///< in the middle of the step, for rates
+  Vector<D, Real> middle_velocity;  ///< of the half step, for strain
   Real unread_here[(8 - 3 - D)];
   Vector<D, Real> moment;      ///< V G h, times a
   Vector<D, Real> tilt;        ///< b
@@ -48,9 +48,7 @@ struct SmoothSolid : SmoothMatter<D, Real>, detail::BehindMatter<D, Real> {
 template <int D, class Real>
 struct SolidSum {
   Tensor<D, Real> gradient;  ///< G
-  // The gradients with which the rate pass does work: neighbours count by mass / density of p (or by their volume).
-  Tensor<D, Real> in_middle, predicted;  ///< of the velocities in the middle of the step, at its end
-  Tensor<D, Real> spread;                ///< B
+  Tensor<D, Real> spread;    ///< B
   // With the weight phi / spacing:
   Real weight;
   Vector<D, Real> offset;         ///< of r
@@ -59,8 +57,8 @@ struct SolidSum {
   Tensor<D, Real> near_gradient;  ///< of r (v_p - v_q)
 };
 template <int D, class Real>
-SolidSum(Tensor<D, Real>, Tensor<D, Real>, Tensor<D, Real>, Tensor<D, Real>, Real, Vector<D, Real>, Vector<D, Real>,
-         Tensor<D, Real>, Tensor<D, Real>) -> SolidSum<D, Real>;
+SolidSum(Tensor<D, Real>, Tensor<D, Real>, Real, Vector<D, Real>, Vector<D, Real>, Tensor<D, Real>, Tensor<D, Real>)
+    -> SolidSum<D, Real>;
 
 /// phi(x) = (1 - x / reach)^4, and a. Both are chosen so that plane shear waves in which neighbouring planes of
 /// particles move against each other have the frequency sqrt(G / rho) k, for the square, hexagonal, simple cubic and
@@ -99,19 +97,9 @@ struct SolidSumPass {
     auto const r2 = dot(r, r);
     Real const slope = detail::weigh_by<Shape, variable>(p, r2, parameters).slope;
     auto const smooth = r * (q.volume * slope);
-    auto const of_rates =
-        r * (slope * (parameters.by_volume * q.volume + (1 - parameters.by_volume) * q.mass / p.density));
     Real const weight = detail::hourglass_weight(p, q, Real(r2 * rsqrt(max(r2, Real(1e-280)))));
     auto const near = r * weight;
-    return SolidSum{outer(smooth, v),
-                    outer(of_rates, v),
-                    outer(of_rates, p.velocity - q.velocity),
-                    outer(smooth, -r),
-                    weight,
-                    near,
-                    v * weight,
-                    outer(near, r),
-                    outer(near, v)};
+    return SolidSum{outer(smooth, v), outer(smooth, -r), weight, near, v * weight, outer(near, r), outer(near, v)};
   }
 };
 
@@ -140,7 +128,7 @@ struct SolidForcePass {
     Real const of_q = detail::hourglass_weight(q, p, distance) * (1.0 + dot(q.tilt, r));
     auto const from_p = dot(r, p.correction) * (slope_p * q.volume) - p.moment * of_p;
     auto const from_q = dot(r, q.correction) * (slope_q * p.volume) + q.moment * of_q;
-    return SolidForce{from_p + from_q, dot(from_p, q.middle_velocity - p.middle_velocity)};
+    return SolidForce{from_p + from_q, dot(from_p, q.velocity - p.velocity)};
   }
 };
 
