@@ -27,15 +27,15 @@ std::string nearest(std::string_view word, std::span<std::string const> candidat
 /// "; did you mean 'cutoff'?" for the nearest candidate, "" if none is near.
 std::string did_you_mean(std::string_view word, std::span<std::string const> candidates);
 
-/// How a message about an unknown word goes on: its hint first, then at most eight of the words there are, then where all
-/// of them are listed. "; did you mean 'b'? There are a, b, ... and 25 more (bzm list letters)", or of a few words
-/// "; there are a, b; did you mean 'b'?". `verb` is "there are", "it has" or "allowed are"; `where`: "bzm list letters".
+/// The end of a message about an unknown word: a suggestion, at most eight of the valid words, and where all are listed,
+/// "; did you mean 'b'? There are a, b, ... and 25 more (bzm list letters)". If there are only a few words it is
+/// "; there are a, b; did you mean 'b'?". `verb` is "there are", "it has" or "allowed are", `where` "bzm list letters".
 std::string choices(std::string_view word, std::span<std::string const> names, std::string_view verb = "there are",
                     std::string_view where = "");
-/// The same with a hint of one's own, as did_you_mean() gives it.
+/// The same with a given hint, in the form that did_you_mean() returns.
 std::string choices_with(std::string_view hint, std::span<std::string const> names, std::string_view verb = "there are",
                          std::string_view where = "");
-/// How many names a message has. Tests that compare all of them raise it.
+/// The greatest number of names in a message. Tests that compare all names raise it.
 inline std::size_t most_names = 8;
 
 /// A text of somebody's file for a message, without its quotation marks: 40 letters of it at most, "?" for what can't

@@ -110,10 +110,10 @@ inline constexpr std::array foreign_terms{
     ForeignTerm{"group|molecule_template|atom_style|atom_modify|newton|package|suffix|processors|comm_modify",
                 "no such thing is needed: kinds of particles are tables [[ensembles]]"}};
 
-/// What Boltzmann has instead of a term of another program; empty if the term is unknown. Words that only say of what
-/// kind a term is ("fix", "compute", "pair_style", "hoomd.md.pair.") may stand before it.
+/// The counterpart of another program's term in Boltzmann; empty if the term is unknown. A prefix that names its kind
+/// ("fix", "compute", "pair_style", "hoomd.md.pair.") is ignored.
 std::string foreign_term(std::string_view term);
-/// The term in small letters without such words.
+/// The term in lower case without such a prefix.
 std::string without_foreign_kind(std::string_view term);
 
 }  // namespace boltzmann

@@ -531,9 +531,10 @@ double PairDissipation::Coupling::mean_friction(double const* p, double const* q
 std::vector<std::string> PairDissipation::warnings(double step_size) {
   // With the matrix G of friction (dv = -G v dt), x = G dt and noise of variance 2 x T, a step multiplies a mode of v by
   // 1 - x, with the corrector by 1 - x + x^2/2, with its second pass (internal energies) by 1 - x + x^2/2 - x^3/4, so
-  // that its T is off by x/2, -x^2/4, x^3/8 to leading order. Means over modes are between those of modes by themselves
-  // and those weighted with x, as motion mixes them: with s = dt tr(G^2) / tr(G) about 0.45 s, -0.25 s^2, 0.2 s^3, as
-  // measured for s up to 0.2, 0.5, 0.6. Sums over some particles; lines of centres point everywhere.
+  // that its T is off by x/2, -x^2/4, x^3/8 to leading order. Motion mixes the modes, so the mean over them is not known
+  // exactly. With s = dt tr(G^2) / tr(G), runs of fluids without forces were fitted by 0.45 s, -0.25 s^2 and 0.2 s^3, for
+  // s up to 0.2, 0.5 and 0.6; at small s the last two miss by up to 40 %. Sums are over some of the particles, whose
+  // lines of centres are taken to point everywhere.
   double strongest = 0;
   Neighbourhood& neighbourhood = scheme_.neighbourhood();
   neighbourhood.refresh(threads());

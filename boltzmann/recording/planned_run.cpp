@@ -1,4 +1,4 @@
-// Whether a run is long enough for what is measured in it.
+// Whether a run is long enough for what is measured in it, and its steps short enough to its end.
 #include <boltzmann/diagnoses/average.hpp>
 #include <boltzmann/diagnoses/diffusion.hpp>
 #include <boltzmann/diagnoses/green_kubo.hpp>
@@ -10,6 +10,7 @@
 #include <boltzmann/diagnoses/time_correlation.hpp>
 #include <boltzmann/diagnoses/wave_spectrum.hpp>
 #include <boltzmann/recording/planned_run.hpp>
+#include <boltzmann/simulation/collapse.hpp>
 
 #include <fmt/format.h>
 
@@ -118,6 +119,8 @@ std::vector<std::string> planned_warnings(Recording const& recording, std::int64
   if (steps <= 0) return lines;
   for (auto const* diagnosis : recording.instruments())
     if (auto line = warning_of(*diagnosis, plan); !line.empty()) lines.push_back(std::move(line));
+  double const duration = static_cast<double>(steps) * std::abs(plan.step_size);
+  if (auto line = warn_of_collapse(simulation, duration); !line.empty()) lines.push_back(std::move(line));
   return lines;
 }
 

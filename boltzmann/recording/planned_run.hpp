@@ -9,7 +9,8 @@
 
 namespace boltzmann {
 
-/// Lines that begin with "warning: ": diagnoses that get nothing, or too little, in a run of so many steps from here.
+/// Lines that begin with "warning: ": diagnoses that get nothing, or too little, in a run of so many steps from here,
+/// and gas whose collapse will need shorter steps.
 std::vector<std::string> planned_warnings(Recording const& recording, std::int64_t steps);
 
 }  // namespace boltzmann

@@ -13,15 +13,6 @@
 namespace boltzmann {
 namespace {
 
-/// The cure where smooth particles need shorter steps than at the start; empty where there are none.
-std::string advice_on_substeps(std::vector<Scheme*> const& schemes, bool divided, bool dissipates) {
-  bool const sound =
-      std::any_of(schemes.begin(), schemes.end(), [](Scheme const* s) { return std::isfinite(s->sound_step()); });
-  if (!sound || divided) return "";
-  if (dissipates) return "; take a shorter step";  // whose random numbers are of whole steps
-  return "; let steps be divided where they must: substeps = { courant = 0.4 } in [run] (divide_steps() in C++)";
-}
-
 /// A field with a rate of its own that is not finite; null: there is none, or something else is not.
 Field const* driven_field_not_finite(AnyEnsemble const& ensemble, std::size_t i) {
   Field const* driven = nullptr;
@@ -130,8 +121,7 @@ void Simulation::advance(double dt, std::vector<Dissipation*> const& dissipation
       throw PhysicsFailure(
           fmt::format("the step has become too long: with the sound of now the longest that makes sense is {}, and the "
                       "step is {}{}",
-                      told_time(scheme->sound_step()), told_time(std::abs(dt)),
-                      advice_on_substeps(schemes_, substeps_.has_value(), !dissipations_.empty())));
+                      told_time(scheme->sound_step()), told_time(std::abs(dt)), advice_on_substeps()));
 }
 
 /// By the stages of the integrators.
@@ -416,13 +406,19 @@ void Simulation::check_move(Part const& part, LargestMove const& move) const {
                                    move.particle, name, length(moved), length(allowed), advice()));
 }
 
+std::string Simulation::advice_on_substeps() const {
+  bool const sound =
+      std::any_of(schemes_.begin(), schemes_.end(), [](Scheme const* s) { return std::isfinite(s->sound_step()); });
+  if (!sound || substeps_) return "";
+  if (!dissipations_.empty()) return "; take a shorter step";  // whose random numbers are of whole steps
+  return "; let steps be divided where they must: substeps = { courant = 0.4 } in [run] (divide_steps() in C++)";
+}
+
 /// The cure of a step that has brought a particle too far, as far as it is known.
 std::string Simulation::advice() const {
   auto const told = [&](double number) { return units().text(number, dimensions::time, 3); };
   double const of_speeds = collisions_followed * collision_step_, safe = std::min(of_speeds, force_step_);
-  if (auto const divided = advice_on_substeps(schemes_, substeps_.has_value(), !dissipations_.empty());
-      !divided.empty())
-    return divided;
+  if (auto const divided = advice_on_substeps(); !divided.empty()) return divided;
   if (std::abs(step_size_) > of_speeds)
     return fmt::format("; take a step below {}: a longer one does not follow collisions at the speeds of the start",
                        told(safe));

@@ -3,6 +3,7 @@
 #include <boltzmann/dissipation/rigid_motion.hpp>
 #include <boltzmann/integrators/driven_fields.hpp>
 #include <boltzmann/schemes/after_others.hpp>
+#include <boltzmann/schemes/mesh/mesh_scheme.hpp>
 #include <boltzmann/schemes/molecules/molecule_scheme.hpp>
 #include <boltzmann/schemes/velocity_influences.hpp>
 #include <boltzmann/simulation/simulation.hpp>
@@ -91,10 +92,17 @@ void Simulation::check_start(bool added) {
   check_influences();
   collision_step_ = std::numeric_limits<double>::infinity();
   for (auto const* scheme : schemes_) collision_step_ = std::min(collision_step_, scheme->collision_step());
-  StartForces const forces =
-      forces_at_start(moved(), ensembles_, schemes_.front()->box(), step_size_, collision_step_, added);
+  StartForces const forces = forces_at_start(moved(), ensembles_, schemes_.front()->box(), step_size_, collision_step_,
+                                             added, dissipations_.empty() ? advice_on_substeps() : "");
   force_step_ = forces.step;
-  if ((!begun_ || added) && !substeps_ && !forces.too_large.empty()) throw Error(forces.too_large);
+  if ((begun_ && !added) || substeps_) return;
+  if (!forces.too_large.empty()) throw Error(forces.too_large);
+  if (added) return;
+  for (auto* scheme : schemes_) {
+    auto* const mesh = dynamic_cast<MeshScheme*>(scheme);
+    auto* const pairs = mesh ? &mesh->pairs() : dynamic_cast<PairScheme*>(scheme);
+    if (auto const line = pairs ? pairs->overlap(step_size_) : ""; !line.empty()) throw Error(line);
+  }
 }
 
 /// The integrator of an ensemble, with its stages and with what it takes over from the schemes.

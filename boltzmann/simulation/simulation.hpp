@@ -165,6 +165,7 @@ class Simulation {
   /// begin and where they end. So steps end when they should, and a run backwards divides them alike. Ensembles move by
   /// leap-frog or symplectic-4 then. Error if an option is not positive.
   void divide_steps(SubstepOptions const& options);
+  bool divides_steps() const { return substeps_.has_value(); }
   /// How many substeps there were so far in divided steps, and how many that were too long and done again.
   SubstepCounts const& substeps() const { return substep_counts_; }
   /// Of the random numbers of steps; loaders take theirs as an argument.
@@ -293,6 +294,8 @@ class Simulation {
   void check_moves();
   void check_move(Part const& part, LargestMove const& move) const;
   std::string advice() const;
+  /// The cure where smooth particles need shorter steps than at the start; empty where there are none.
+  std::string advice_on_substeps() const;
 
   // divided_run.cpp: over the ranks of a team.
   bool is_divided() const { return division_ && division_->goes_on(); }

@@ -73,7 +73,7 @@ double with_two_digits_below(double x) {
 }  // namespace
 
 StartForces forces_at_start(std::vector<Moved> const& moved, std::vector<AnyEnsemble*> const& all, Box const& box,
-                            double step_size, double collision_step, bool added) {
+                            double step_size, double collision_step, bool added, std::string const& otherwise) {
   StartForces found{infinite, ""};
   Thrown worst;
   double length = 0, allowed = 0;
@@ -116,7 +116,9 @@ StartForces forces_at_start(std::vector<Moved> const& moved, std::vector<AnyEnse
       worst.particle.name(), told(way), further,
       other.of ? fmt::format(" ({} is nearest, {} away)", other.name(), told(distance)) : "",
       units.text(with_two_digits_below(safe), dimensions::time, 3),
-      added ? "" : ", or let [minimise] find a start with small forces (minimise() in C++)");
+      !otherwise.empty() ? otherwise
+      : added            ? ""
+                         : ", or let [minimise] find a start with small forces (minimise() in C++)");
   return found;
 }
 

@@ -21,8 +21,9 @@ struct StartForces {
 };
 
 /// Of the influences as they stand. What is advised also suits the `collision_step`. Classes without mass and velocity are
-/// left out. `added`: in the middle of a run, with particles that have just been added.
+/// left out. `added`: in the middle of a run, with particles that have just been added. `otherwise`: another cure than a
+/// shorter step, if [minimise] is none.
 StartForces forces_at_start(std::vector<Moved> const& moved, std::vector<AnyEnsemble*> const& all, Box const& box,
-                            double step_size, double collision_step, bool added);
+                            double step_size, double collision_step, bool added, std::string const& otherwise);
 
 }  // namespace boltzmann

@@ -42,6 +42,31 @@ load = {{ kind = "fill" }}
                      box, field.empty() ? "" : "boundary = [\"" + field + "\"]", more);
 }
 
+std::string argon(std::string const& lattice, std::string const& law, std::string const& spacing) {
+  return fmt::format(R"(
+[box]
+low = ["0 nm", "0 nm", "0 nm"]
+high = ["4 nm", "4 nm", "4 nm"]
+boundary = "periodic"
+[run]
+step = "5 fs"
+steps = 10
+cutoff = "0.95 nm"
+[[ensembles]]
+name = "argon"
+class = "Newton"
+mass = "39.948 u"
+load = {{ kind = "fill", lattice = "{}", spacing = "{}" }}
+[[influences]]
+law = "{}"
+on = "argon"
+depth = "0.0104 eV"
+r0 = "0.3822 nm"
+{}
+)",
+                     lattice, spacing, law, law == "morse" ? "a = \"30 1/nm\"" : "");
+}
+
 std::string gas(std::string const& diagnosis, int steps, int rows) {
   return fmt::format(R"(
 [units]
@@ -85,6 +110,26 @@ TEST(CheckBeforeRun, AnOpenBoxWithAMesh) {
   }
   // An open field: only where some leave at once.
   EXPECT_FALSE(has(Case("slow", plasma("open", "", "")).check().err, "ends the run"));
+  for (std::string const field : {"", "dirichlet"}) {
+    Case const fast("fast", plasma("open", field, "temperature = 1\ndrift = [50]"));
+    EXPECT_TRUE(has(fast.check().err, "will leave the mesh in step 1")) << fast.check().err;
+  }
+}
+
+// Neighbours on a lattice push from all sides: no force shows the overlap.
+TEST(CheckBeforeRun, AtomsOfALatticeThatOverlap) {
+  for (std::string const lattice : {"square", "fcc", "bcc"})
+    for (std::string const law : {"lennard-jones", "morse"}) {
+      Case const near("near", argon(lattice, law, "0.2 nm"));
+      auto const outcome = near.check();
+      EXPECT_EQ(outcome.status, 2) << lattice << law << outcome.err;
+      EXPECT_TRUE(has(outcome.err, "overlap")) << lattice << law << outcome.err;
+      if (lattice == "square") {
+        EXPECT_TRUE(has(outcome.err, "only 2e-10 m apart")) << outcome.err;
+      }
+      Case const far("far", argon(lattice, law, "0.38 nm"));
+      EXPECT_EQ(far.check().status, 0) << lattice << law << far.check().err;
+    }
 }
 
 TEST(CheckBeforeRun, CorrelatorsThatNeedALongerRun) {
@@ -117,6 +162,65 @@ TEST(CheckBeforeRun, NothingIsMeasuredAfterTheEnd) {
     if (outcome.status != 0) continue;  // a kind without this key
     EXPECT_TRUE(has(outcome.err, "nothing is measured")) << kind << outcome.err;
   }
+}
+
+// Gas that its gravity pulls together needs ever shorter steps: what is said before the run and when it fails names those
+// that are divided.
+TEST(CheckBeforeRun, GasThatFallsTogether) {
+  std::string const evrard = R"(
+[units]
+base = "reduced"
+[box]
+low = [-2, -2, -2]
+high = [2, 2, 2]
+boundary = "open"
+[run]
+step = { courant = COURANT }
+steps = 200
+SUBSTEPS
+[smooth]
+weight = "wendland"
+artificial_viscosity = { alpha = 1, beta = 2 }
+[mesh]
+law = "gravity"
+G = STRENGTH
+on = "gas"
+cells = 16
+[[ensembles]]
+name = "gas"
+class = "Smooth"
+load = { kind = "fill", spacing = 0.2, where = "r < 1" }
+density = 0.2387
+range = 0.5
+specific_energy = 0.05
+material = { kind = "ideal-gas", gamma = 1.6666666666666667 }
+)";
+  auto const with = [&](std::string const& strength, std::string const& courant, std::string const& substeps) {
+    std::string text = evrard;
+    text.replace(text.find("COURANT"), 7, courant);
+    text.replace(text.find("STRENGTH"), 8, strength);
+    return text.replace(text.find("SUBSTEPS"), 8, substeps);
+  };
+  std::string const cure = "substeps = { courant = 0.4 }", foreseen = "falls together";
+  // So strong that it is refused at once.
+  auto const refused = Case("strong", with("30", "0.9", "")).run({"--quiet"});
+  EXPECT_EQ(refused.status, 2) << refused.err;
+  EXPECT_TRUE(has(refused.err, cure)) << refused.err;
+  auto const divided = Case("divided", with("30", "0.9", cure)).run({"--quiet", "--steps", "20"});
+  EXPECT_EQ(divided.status, 0) << divided.err;
+  for (std::string const strength : {"1", "3"}) {
+    Case const fixed("fixed", with(strength, "0.9", ""));
+    auto const failed = fixed.run({"--quiet"});
+    EXPECT_EQ(failed.status, 3) << failed.err;
+    EXPECT_TRUE(has(failed.err.substr(failed.err.find("step ")), cure)) << failed.err;
+  }
+  // A step that suits the sound of the start: the free fall tells.
+  auto const slow = Case("slow", with("1", "0.3", "")).check();
+  EXPECT_EQ(slow.status, 0) << slow.err;
+  EXPECT_TRUE(has(slow.err, foreseen) && has(slow.err, cure)) << slow.err;
+  EXPECT_FALSE(has(Case("with", with("1", "0.3", cure)).check().err, foreseen));
+  EXPECT_FALSE(has(Case("brief", with("1", "0.01", "")).check().err, foreseen));  // over before it falls
+  EXPECT_FALSE(has(Case("held", with("0.1", "0.3", "")).check().err, foreseen));  // by its pressure
 }
 
 // One number, the one to type: a failure names no second step.

@@ -4,37 +4,22 @@
 
 #include <gtest/gtest.h>
 #include <tests/seed.hpp>
+#include <tests/ulp.hpp>
 
 #include <bit>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <functional>
-#include <limits>
 #include <random>
 #include <string>
 
 namespace boltzmann::pack_math_test {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
-constexpr double largest = std::numeric_limits<double>::max();
-constexpr double tiniest = std::numeric_limits<double>::denorm_min();
+using namespace test;
 
 using Exact = long double (*)(long double);
-
-/// |got - exact| in units in the last place of the exact value; infinite if one of them is NaN or infinite and the
-/// other is not that.
-double error_in_ulp(double got, long double exact) {
-  double const rounded = static_cast<double>(exact);
-  if (std::isnan(got) || std::isnan(rounded)) return std::isnan(got) && std::isnan(rounded) ? 0 : infinity;
-  if (std::isinf(got) || std::isinf(rounded)) return got == rounded ? 0 : infinity;
-  int exponent = 0;
-  std::frexp(rounded, &exponent);
-  if (rounded == 0 || exponent < -1021) exponent = -1021;
-  return static_cast<double>(std::fabs(static_cast<long double>(got) - exact)) / std::ldexp(1.0, exponent - 53);
-}
 
 struct Range {
   double low, high;

@@ -9,12 +9,12 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <tests/seed.hpp>
+#include <tests/ulp.hpp>
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <memory>
 #include <random>
 #include <string>
@@ -23,21 +23,7 @@
 namespace boltzmann::formula_accuracy_test {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
-constexpr double largest = std::numeric_limits<double>::max();
-constexpr double tiniest = std::numeric_limits<double>::denorm_min();
-
-/// In units in the last place of the exact value; infinite if only one of them is NaN, or infinite.
-double error_in_ulp(double got, long double exact) {
-  double const rounded = static_cast<double>(exact);
-  if (std::isnan(got) || std::isnan(rounded)) return std::isnan(got) && std::isnan(rounded) ? 0 : infinity;
-  if (std::isinf(got) || std::isinf(rounded)) return got == rounded ? 0 : infinity;
-  int exponent = 0;
-  std::frexp(rounded, &exponent);
-  if (rounded == 0 || exponent < -1021) exponent = -1021;
-  return static_cast<double>(std::fabs(static_cast<long double>(got) - exact)) / std::ldexp(1.0, exponent - 53);
-}
+using namespace test;
 
 /// A formula of x and y as a program, and as it is calculated for single values.
 class Way {
@@ -226,7 +212,9 @@ TEST(FormulaAccuracy, HyperbolicSinesAreFiniteAsLongAsTheirValuesAre) {
   expect_value("sinh(800)", "sinh(x)", 800, infinity);
   expect_value("sinh(-800)", "sinh(x)", -800, -infinity);
   expect_value("cosh(-800)", "cosh(x)", -800, infinity);
-  EXPECT_LT(error_in_ulp(Way("sinh(x)").by_program<4>({710.4}, {0}, false)[0], std::sinh(static_cast<long double>(710.4))), 2);
+  EXPECT_LT(
+      error_in_ulp(Way("sinh(x)").by_program<4>({710.4}, {0}, false)[0], std::sinh(static_cast<long double>(710.4))),
+      2);
   EXPECT_EQ(Way("sinh(x)").by_program<4>({-0.0}, {0}, true)[0], 0);
 }
 

@@ -1,10 +1,8 @@
 // The field at Dirichlet ends.
 #include <boltzmann/core/number.hpp>
 #include <boltzmann/core/team.hpp>
-#include <boltzmann/schemes/mesh/ghosts.hpp>
 #include <boltzmann/schemes/mesh/grounded_walls.hpp>
 #include <boltzmann/schemes/mesh/poisson_lines.hpp>
-#include <boltzmann/schemes/mesh/spline.hpp>
 
 #include <algorithm>
 #include <bit>
@@ -15,49 +13,60 @@ namespace boltzmann {
 namespace {
 
 /// How a density that is 1 at a low Dirichlet end, and falls to 0 at the other one (or stays 1 up to a Neumann end),
-/// differs from what its values on the inner nodes make of it in the spectral form: `lift` is added to the density on
-/// the nodes, so that all modes of the mesh have their exact amplitudes; `rest` is the field of all shorter waves.
+/// differs from what its values on the inner nodes make of it in the spectral form: `density` is added to that on the
+/// nodes, so that all modes of the mesh have their exact amplitudes; `field` is that of all shorter waves. `smeared` is
+/// the field at nodes that WallClouds::smear adds, apart from the uniform one of its dipole.
 struct Lift {
-  std::vector<double> density, field;
+  std::vector<double> density, field, smeared;
 };
-Lift make_lift(MeshGrid const& grid, FieldEnds const& ends, int a) {
+Lift make_lift(MeshGrid const& grid, FieldEnds const& ends, int a, std::vector<double> const& smear) {
   bool const both = ends.high == FieldBoundary::dirichlet;
   poisson::Axis axis = poisson::make_axis(grid, ends, a);
   poisson::fill_tables(axis, PoissonForm::spectral);
   poisson::Lines const lines(axis, poisson::Layout::row, true);
   std::size_t const size = poisson::Lines::buffer_size(axis, poisson::Layout::row);
   FourierArray modes(size), nodes(size);
-  double const length = static_cast<double>(axis.cells) * axis.spacing;
+  double const h = axis.spacing, length = static_cast<double>(axis.cells) * h;
   // The exact amplitudes of both densities are 2 / (k L). Transforms double what they are given.
-  auto const fill = [&](int power) {
+  auto const fill = [&](auto const& amplitude) {
     std::fill_n(modes.data(), size, 0.0);
-    for (std::size_t j = 0; j < axis.modes; ++j) {
-      double const k = std::sqrt(axis.eigenvalue[j]);
-      modes[j] = 1 / (k * length) / (power == 0 ? 1 : k * k);
-    }
+    for (std::size_t j = 0; j < axis.modes; ++j) modes[j] = amplitude(std::sqrt(axis.eigenvalue[j])) / length;
   };
-  Lift lift{std::vector<double>(axis.nodes), std::vector<double>(axis.nodes)};
-  fill(0);
-  poisson::Nodes range = lines.backward(modes.data(), nodes.data());
+  // function(node, field there) of a density with amplitudes k^2 times those that fill() got.
+  auto const slopes = [&](auto const& function) {
+    poisson::Nodes const range = lines.slope(modes.data(), nodes.data(), 1);
+    for (std::size_t j = 0; j < axis.nodes; ++j)
+      function(j, j >= range.first && j < range.first + range.count ? nodes[j - range.first] : 0.0);
+  };
+  Lift lift{std::vector<double>(axis.nodes), std::vector<double>(axis.nodes), std::vector<double>(axis.nodes)};
+  fill([](double k) { return 1 / k; });
+  poisson::Nodes const range = lines.backward(modes.data(), nodes.data());
   for (std::size_t j = 0; j < range.count; ++j) {
-    double const x = static_cast<double>(j + range.first) * axis.spacing;
+    double const x = static_cast<double>(j + range.first) * h;
     lift.density[j + range.first] = nodes[j] - (both ? 1 - x / length : 1);
   }
-  fill(2);
-  range = lines.slope(modes.data(), nodes.data(), 1);
-  for (std::size_t j = 0; j < axis.nodes; ++j) {
-    double const x = static_cast<double>(j) * axis.spacing;
-    bool const known = j >= range.first && j < range.first + range.count;
-    lift.field[j] =
-        (both ? x - x * x / (2 * length) - length / 3 : x - length) - (known ? nodes[j - range.first] : 0.0);
-  }
+  fill([](double k) { return 1 / (k * k * k); });
+  slopes([&](std::size_t j, double slope) {
+    double const x = static_cast<double>(j) * h;
+    lift.field[j] = (both ? x - x * x / (2 * length) - length / 3 : x - length) - slope;
+  });
+  double dipole = smear[0] * h * h / 12;  // of lift.density, and of the nodes
+  for (std::size_t i = 1; i < smear.size(); ++i) dipole += smear[i] * static_cast<double>(i) * h * h;
+  fill([&](double k) {
+    double sum = smear[0] * (1 / k - 0.5 * h / std::tan(0.5 * k * h));  // of lift.density
+    for (std::size_t i = 1; i < smear.size(); ++i) sum += smear[i] * h * std::sin(k * static_cast<double>(i) * h);
+    return sum / (k * k);
+  });
+  slopes([&](std::size_t j, double slope) {
+    lift.smeared[j] = slope + smear[0] * lift.field[j] - (both ? dipole / length : 0);
+  });
   return lift;
 }
 
 }  // namespace
 
 GroundedWalls::GroundedWalls(MeshGrid const& grid, std::array<FieldEnds, 3> const& ends, PoissonForm form, int order)
-    : grid_(grid), ends_(ends), form_(form), order_(order) {
+    : grid_(grid), ends_(ends), form_(form), order_(order), clouds_(wall_clouds(order)) {
   for (int a = 0; a < grid.dimension; ++a)
     for (bool const high : {false, true}) {
       if ((high ? ends[a].high : ends[a].low) != FieldBoundary::dirichlet) continue;
@@ -67,68 +76,16 @@ GroundedWalls::GroundedWalls(MeshGrid const& grid, std::array<FieldEnds, 3> cons
       wall.at.resize(grid.size() / grid.nodes[a]);
       wall.far.resize(wall.at.size());
       if (form != PoissonForm::spectral) continue;
-      Lift const lift = make_lift(grid, high ? FieldEnds{ends[a].high, ends[a].low} : ends[a], a);
+      Lift const lift = make_lift(grid, high ? FieldEnds{ends[a].high, ends[a].low} : ends[a], a, clouds_.smear);
       wall.lift = lift.density;
       wall.rest = lift.field;
+      if (clouds_.smear.size() > 1) wall.smeared = lift.smeared;
     }
-  fill_spread(order);
 }
 
-/// Clouds of more than two cells reach beyond a wall. What they count there is kept as a dipole (Ghosts), so the field
-/// of a uniform density beside the wall is off by C h rho times these numbers.
-void GroundedWalls::fill_spread(int order) {
-  auto const reach = static_cast<std::size_t>(nodes_before(order)), cells = 2 * reach + 8;
-  FieldEnds const ends{FieldBoundary::dirichlet, FieldBoundary::neumann};
-  Ghosts const ghosts(1, {cells, 1, 1}, {ends, FieldEnds{}, FieldEnds{}}, order);
-  // Weights are polynomials of at most the sixth degree in each half cell: Gauss' rule of four points is exact.
-  constexpr double at[4] = {0.0694318442029737, 0.3300094782075719, 0.6699905217924281, 0.9305681557970263};
-  constexpr double share[4] = {0.1739274225687269, 0.3260725774312731, 0.3260725774312731, 0.1739274225687269};
-  std::vector<double> padded(ghosts.nodes(0)), counts(cells + 1);
-  auto const put = [&]<int p>(double s, double amount, std::integral_constant<int, p>) {
-    double const t = p % 2 == 1 ? s + 0.5 : s;
-    double weights[p];
-    spline_weights<p>(t - std::floor(t), weights);
-    for (int k = 0; k < p; ++k)
-      padded[static_cast<std::size_t>(t) + static_cast<std::size_t>(k)] += amount * weights[k];
-  };
-  for (std::size_t half = 0; half < 2 * cells; ++half)
-    for (int i = 0; i < 4; ++i) {
-      double const s = (static_cast<double>(half) + at[i]) / 2, amount = share[i] / 2;
-      switch (order) {
-        case 1:
-          put(s, amount, std::integral_constant<int, 1>());
-          break;
-        case 2:
-          put(s, amount, std::integral_constant<int, 2>());
-          break;
-        case 3:
-          put(s, amount, std::integral_constant<int, 3>());
-          break;
-        case 4:
-          put(s, amount, std::integral_constant<int, 4>());
-          break;
-        case 5:
-          put(s, amount, std::integral_constant<int, 5>());
-          break;
-        case 6:
-          put(s, amount, std::integral_constant<int, 6>());
-          break;
-        default:
-          put(s, amount, std::integral_constant<int, 7>());
-          break;
-      }
-    }
-  for (std::size_t g = 0; g < padded.size(); ++g) {
-    auto const& term = ghosts.term(0, g);
-    counts[term.node] += term.factor * padded[g];
-    counts[0] += term.low * padded[g];
-    counts[cells] += term.high * padded[g];
-  }
-  double before = 0;
-  for (std::size_t i = 0; i <= reach; ++i) {
-    spread_.push_back(before + 0.5 * counts[i] - (i == 0 ? 0.25 : static_cast<double>(i)));
-    before += counts[i];
-  }
+/// The first node from a wall inward that no particle of the first cell meets, nor one that meets the wall.
+std::size_t GroundedWalls::far_node(int axis) const {
+  return std::min(clouds_.smear.size() - 1 + static_cast<std::size_t>(order_), grid_.nodes[axis] - 1);
 }
 
 /// function(node of the wall, index of the node so many nodes inside of it) for all that are on no other grounded wall.
@@ -157,7 +114,7 @@ void GroundedWalls::take(std::vector<double> const& density, std::pair<std::size
   bool const all = !team;
   std::vector<std::int64_t> bits;
   for (Wall& wall : walls_) {
-    std::size_t const far = std::min(spread_.size() - 1 + static_cast<std::size_t>(order_), grid_.nodes[wall.axis] - 1);
+    std::size_t const far = far_node(wall.axis);
     for (auto* values : {&wall.at, &wall.far}) {
       std::fill(values->begin(), values->end(), 0.0);
       for_nodes(wall, values == &wall.at ? 0 : far, [&](std::size_t i, std::size_t node) {
@@ -201,14 +158,21 @@ void GroundedWalls::correct(std::vector<std::vector<double>>& field, double cons
   for (Wall const& wall : walls_) {
     auto& E = field[static_cast<std::size_t>(wall.axis)];
     double const C = wall.high ? -constant : constant, h = grid_.spacing[wall.axis];
-    if (wall.rest.empty())
-      for_nodes(wall, 0, [&](std::size_t i, std::size_t node) { E[node] -= 0.5 * C * h * wall.at[i]; });
-    else
+    auto const smeared = [&](std::size_t j, double by) {
+      for_nodes(wall, j, [&](std::size_t i, std::size_t node) { E[node] -= C * by * (wall.far[i] - background); });
+    };
+    if (form_ == PoissonForm::spectral) {
       for (std::size_t j = 0; j < wall.rest.size(); ++j)
         for_nodes(wall, j, [&](std::size_t i, std::size_t node) { E[node] += C * wall.rest[j] * wall.at[i]; });
-    for (std::size_t j = 1; j < spread_.size() && j < grid_.nodes[wall.axis]; ++j)
-      for_nodes(wall, j,
-                [&](std::size_t i, std::size_t node) { E[node] -= C * h * spread_[j] * (wall.far[i] - background); });
+      for (std::size_t j = 0; j < wall.smeared.size(); ++j) smeared(j, wall.smeared[j]);
+      continue;
+    }
+    for_nodes(wall, 0, [&](std::size_t i, std::size_t node) { E[node] -= 0.5 * C * h * wall.at[i]; });
+    double before = 0.5 * clouds_.smear[0];  // smeared between the wall and a node
+    for (std::size_t j = 1; j < clouds_.smear.size() && j < grid_.nodes[wall.axis]; ++j) {
+      smeared(j, h * (before + 0.5 * clouds_.smear[j]));
+      before += clouds_.smear[j];
+    }
   }
 }
 
@@ -220,7 +184,8 @@ void GroundedWalls::for_particles(std::vector<std::vector<double>>& field, doubl
     // To the nearest node goes all charge of the half cell, and the mean field there is what acts on it.
     double const even = order_ == 1 ? 0 : 0.25;
     for_nodes(wall, 0, [&](std::size_t i, std::size_t node) {
-      E[node] += C * h * (0.25 * wall.at[i] - even * wall.far[i] - spread_[0] * (wall.far[i] - background));
+      double const at_wall = wall.at[i] - clouds_.smear[0] * (wall.far[i] - background);
+      E[node] += C * h * (0.25 * at_wall - even * wall.far[i]);
     });
   }
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <boltzmann/schemes/mesh/poisson.hpp>
+#include <boltzmann/schemes/mesh/wall_clouds.hpp>
 
 #include <array>
 #include <cstddef>
@@ -51,12 +52,12 @@ class GroundedWalls {
     int axis = 0;
     bool high = false;
     std::vector<double> at, far;  ///< densities on its nodes, and those far enough inside
-    std::vector<double> lift, rest;
+    std::vector<double> lift, rest, smeared;
   };
 
   template <class Function>
   void for_nodes(Wall const& wall, std::size_t inward, Function const& function) const;
-  void fill_spread(int order);
+  std::size_t far_node(int axis) const;
 
   MeshGrid grid_;
   std::array<FieldEnds, 3> ends_;
@@ -64,7 +65,7 @@ class GroundedWalls {
   int order_ = 2;
   bool taken_ = false;
   std::vector<Wall> walls_;
-  std::vector<double> spread_;  // by distance from the wall, in nodes: see fill_spread()
+  WallClouds clouds_;
   std::vector<double> source_;
 };
 

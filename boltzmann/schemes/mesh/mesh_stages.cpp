@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <limits>
 
 namespace boltzmann {
 
@@ -165,6 +166,7 @@ void MeshScheme::add_background(Work& work) const {
 
 void MeshScheme::solve(Work& work, bool with_potential, SolvingRanks const* ranks) {
   ++solves_;
+  work.density_shown = false;
   work.walls.take(work.density.components[0], work.planes, work.others);
   if (!potential_calculation_ && !influence_field_) {
     work.solver.solve(work.walls.source(work.density.components[0]), law_.constant,
@@ -202,11 +204,28 @@ double MeshScheme::Work::background(MeshScheme const& scheme) const {
 }
 
 void MeshScheme::Work::show_density(MeshScheme const& scheme) {
-  if (unfolded.empty() || scheme.density_assignment_) return;
-  ghosts.fold_mirrored(unfolded.data(), 1 / (per_strength * grid.cell_volume()), density.components[0],
-                       scheme.threads());
-  unfolded.clear();
-  scheme.add_background(*this);
+  if (density_shown || scheme.density_assignment_) return;
+  density_shown = true;
+  auto& numbers = density.components[0];
+  if (!unfolded.empty()) {
+    ghosts.fold_mirrored(unfolded.data(), 1 / (per_strength * grid.cell_volume()), numbers, scheme.threads());
+    unfolded.clear();
+    scheme.add_background(*this);
+  }
+  auto const [least, most] = std::minmax_element(numbers.begin(), numbers.end());
+  double const low = *least >= 0 ? 0 : -std::numeric_limits<double>::infinity();
+  double const high = *most <= 0 ? 0 : std::numeric_limits<double>::infinity();
+  WallClouds const clouds = wall_clouds(ghosts.order());
+  std::size_t stride = 1;
+  for (int a = 0; a < grid.dimension; stride *= grid.nodes[a++]) {
+    auto const ends = scheme.ends_[static_cast<std::size_t>(a)];
+    if (ends.low == FieldBoundary::periodic || ends.low == FieldBoundary::open) continue;
+    for (std::size_t line = 0; line < numbers.size() / grid.nodes[a]; ++line)
+      for (bool const end : {false, true})
+        extrapolate_to_wall(clouds, numbers.data() + line / stride * stride * grid.nodes[a] + line % stride,
+                            grid.nodes[a], stride, end);
+  }
+  for (double& number : numbers) number = std::clamp(number, low, high);
 }
 
 void MeshScheme::gather(Work& work, Loaded const& loaded, bool potential, double* result, bool overwrite,

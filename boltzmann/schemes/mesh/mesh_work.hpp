@@ -40,14 +40,16 @@ struct MeshScheme::Work {
   std::pair<std::size_t, std::size_t> planes;  ///< of nodes, those whose density this rank knows; others if
   Team* others = nullptr;                      ///< there are any
   std::vector<std::int64_t>
-      unfolded;  ///< counts of the last deposit, where observers see another density than the solver
+      unfolded;                ///< counts of the last deposit, where observers see another density than the solver
+  bool density_shown = false;  ///< whether `density` is that of observers
 
   Work(Ghosts ghosts, MeshGrid const& grid, std::array<FieldEnds, 3> const& ends, PoissonForm form, int threads,
        GreensFunction const& green);
   std::size_t bytes() const;
   /// The uniform density that no particle has.
   double background(MeshScheme const& scheme) const;
-  /// Where the solver's density is not that of the particles at the walls: puts theirs into `density`, for observers.
+  /// From the density that was solved for to that which observers see: without what clouds smear across walls, and
+  /// extrapolated to them. (It keeps the sign that all nodes have.)
   void show_density(MeshScheme const& scheme);
   static std::vector<std::string> warn_of_open_axes(MeshScheme const& scheme, double step_size);
 };

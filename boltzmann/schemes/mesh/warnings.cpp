@@ -64,23 +64,20 @@ DebyeLength debye_length(std::vector<SpeciesOnMesh> const& all, double frequency
 
 }  // namespace
 
-/// Particles that leave a mesh along an axis that is open for them end the run: always where there are walls of the field
-/// alone, and where some leave in the first steps.
+/// Particles that leave a mesh along an axis that is open for them end the run: warns where some leave in the first
+/// steps, and of walls of the field alone in any case.
 std::vector<std::string> MeshScheme::Work::warn_of_open_axes(MeshScheme const& scheme, double step_size) {
   constexpr double first_steps = 10;
+  constexpr char const* cure = "make the box larger, or write boundary = \"reflecting\" for this axis of [box]";
   std::vector<std::string> lines;
   Box const& box = scheme.box();
   for (int a = 0; a < box.dimension(); ++a) {
     if (box.boundary(a) != Boundary::open) continue;
     FieldEnds const ends = scheme.ends_[static_cast<std::size_t>(a)];
-    if (ends.low != FieldBoundary::open) {
-      lines.push_back(fmt::format(
-          "warning: axis {} of the box is open, and its field ends at walls ({} and {}): a particle that comes there "
-          "leaves the mesh and ends the run; write boundary = \"reflecting\" for this axis of [box], or make the box "
-          "larger",
-          "xyz"[a], to_string(ends.low), to_string(ends.high)));
-      continue;
-    }
+    bool const walls = ends.low != FieldBoundary::open;
+    std::string const field =
+        walls ? fmt::format(", its field ends at walls ({} and {})", to_string(ends.low), to_string(ends.high)) : "";
+    bool soon = false;
     for (auto const& loaded : scheme.loaded_) {
       AnyEnsemble const& ensemble = *loaded->ensemble;
       double soonest = first_steps;
@@ -91,13 +88,17 @@ std::vector<std::string> MeshScheme::Work::warn_of_open_axes(MeshScheme const& s
         double const left = way > 0 ? box.high(a) - row[a] : row[a] - box.low(a), steps = left / std::abs(way);
         if (steps < soonest) soonest = steps, first = i;
       }
-      if (soonest < first_steps)
-        lines.push_back(
-            fmt::format("warning: axis {} of the box is open, and particle {} of '{}' will leave the mesh in step {}, "
-                        "which ends the "
-                        "run; make the box larger, or write boundary = \"reflecting\" for this axis of [box]",
-                        "xyz"[a], first, ensemble.name(), static_cast<int>(soonest) + 1));
+      if (soonest == first_steps) continue;
+      soon = true;
+      lines.push_back(
+          fmt::format("warning: axis {} of the box is open{}, and particle {} of '{}' will leave the mesh in step {}, "
+                      "which ends the run; {}",
+                      "xyz"[a], field, first, ensemble.name(), static_cast<int>(soonest) + 1, cure));
     }
+    if (walls && !soon)
+      lines.push_back(fmt::format(
+          "warning: axis {} of the box is open{}: a particle that comes there leaves the mesh and ends the run; {}",
+          "xyz"[a], field, cure));
   }
   return lines;
 }

@@ -150,6 +150,9 @@ class PairScheme final : public Scheme, private VelocityInfluences {
   bool translation_invariant() const override;
   double length_scale(AnyEnsemble const& ensemble) const override;
   std::string explain(AnyEnsemble const& ensemble, std::size_t i) const override;
+  /// A line, if two particles overlap: a law with a hard core gives them so much energy that one step of this size would
+  /// move them by a good part of their distance. On a lattice the forces of such neighbours cancel.
+  std::string overlap(double step_size);
   /// True if equal particles of this ensemble are acted on equally, wherever they are: by nothing but uniform fields.
   bool acts_uniformly(AnyEnsemble const& ensemble) const;
   /// Adds the influence of such fields (but for those that an integrator has taken) on one row of the ensemble.
@@ -271,6 +274,7 @@ class PairScheme final : public Scheme, private VelocityInfluences {
                 double cutoff, PairFilter filter, double factor);
   bool has_reaction(Near const& near) const;
   void warn_of_typed(Near const& near, std::vector<std::string>& lines) const;
+  std::string overlap(Near& near, double step_size);
 
   double cutoff_;
   double quantum_ = 0;
