@@ -169,6 +169,11 @@ std::pair<std::vector<Descending>, double> Simulation::descending(MinimiseOption
       throw Error(
           "minimise: '" + ensemble->name() + "' is of class " + ensemble->class_name() +
           ", whose pressure does work on its heat: no state has the least energy; let viscosity bring it to rest");
+    if (!part.integrator->taken_freedom().empty())
+      throw Error(fmt::format(
+          "minimise: it does not keep the rigid bonds of '{}'; load the molecules further apart, or minimise with "
+          "harmonic bonds and start the run with rigid ones from its end",
+          ensemble->name()));
     double const length = std::isfinite(part.longest_move2) ? std::sqrt(part.longest_move2) : mean;
     Descending one{ensemble, &part.home->box(), length, options.distance.value_or(most_of_length * length), {}};
     for (std::uint32_t const i : part.integrator->resting()) {

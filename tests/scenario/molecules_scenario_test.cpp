@@ -142,6 +142,9 @@ TEST(MoleculesInScenarios, RigidBondsKeepTheirLengthsAndGoOn) {
     whole->box().nearest_image(d);
     EXPECT_NEAR(std::hypot(d[0], d[1], d[2]), 1.5, 1e-9);
   }
+  auto const minimised = parse_scenario(wide + "[minimise]\nforce = 1\n", "rigid.toml");
+  EXPECT_NE(message([&] { minimised->simulation->run(1); }).find("does not keep the rigid bonds of 'beads'"),
+            std::string::npos);
   expect_mistake(text, "begins");
   expect_mistake(wide + "[[rigid_bonds]]\non = \"beads\"\n", "length");
   expect_mistake(start + "[[rigid_bonds]]\non = \"beads\"\nlength = 1\n", "'beads' has no bonds");
