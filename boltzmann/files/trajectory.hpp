@@ -1,14 +1,15 @@
-// Trajectories: all particles of a run, frame by frame, in H5MD 1.1 (https://www.nongnu.org/h5md/h5md.html), to be read
-// by h5py, MDAnalysis and our own reader, also while the run goes on and after it was killed.
+// Trajectories: all particles of a run, frame by frame, in H5MD 1.1 (https://www.nongnu.org/h5md/h5md.html). They are
+// read by h5py, MDAnalysis and TrajectoryReader, also during the run and after it was killed.
 //
 //   /h5md                          version, author, creator, module "units"
 //   /particles/<ensemble>          class, dimension, index (attributes)
-//     box                          dimension, boundary; edges (if an axis is periodic); bounds (low and high of each
-//     axis) position/{step,time,value}   value [frame][particle][3]; the same for every other field of the class mass
-//     [particle], where the field was declared constant id, species                  [particle]: the number of the row,
-//     the index of the ensemble count/{step,time,value}      how many particles the frame has; rows behind them are NaN
-// All `step` and `time` are one dataset with many names. `unit` stands in H5MD's notation; `boltzmann_unit` as the
-// simulation says it.
+//     box                          dimension, boundary; edges (if an axis is periodic); bounds (low and high of each axis)
+//     position/{step,time,value}   value [frame][particle][3]; the same for every other field of the class
+//     mass                         [particle], if the field was declared constant
+//     id, species                  [particle]: the number of the row, the index of the ensemble
+//     count/{step,time,value}      the number of particles in the frame; rows beyond it are NaN
+// All `step` and `time` are one dataset with many names. `unit` is in H5MD's notation; `boltzmann_unit` is in the
+// simulation's.
 #pragma once
 
 #include <boltzmann/core/dimension.hpp>
@@ -31,12 +32,13 @@ class AnyEnsemble;
 
 struct TrajectoryOptions {
   std::string author = "unknown";
-  std::string version;                              ///< of the program
-  std::function<std::string(Dimension)> unit_name;  ///< empty: no units are written
-  std::function<double(Dimension)> factor;   ///< numbers are written times this, to be in that unit; empty: as they are
-  std::vector<std::string> constant_fields;  ///< written once (for example mass, charge); never position or velocity
-  bool sizes_change = false;                 ///< ensembles may grow far beyond what they are in the first frame
-  std::vector<std::pair<std::string, std::string>> elements = {};  ///< of ensembles: "atoms", "Cu"
+  std::string version;                              ///< empty: units are not written
+  std::function<std::string(Dimension)> unit_name;  ///< factor that converts numbers to that unit; empty: no conversion
+  std::function<double(Dimension)> factor;   ///< written once (for example mass, charge); never position or velocity
+  std::vector<std::string> constant_fields;  ///< ensembles may grow far beyond their size in the first frame
+  bool sizes_change = false;                 ///< by ensemble: "atoms", "Cu"
+  std::vector<std::pair<std::string, std::string>> elements = {};  ///< position and velocity have 3 columns even in 1D
+                                                                   ///< and 2D, as most readers expect
   bool three_columns = true;  ///< position and velocity get 3 columns in 1D and 2D too, as most readers want
 };
 
@@ -90,9 +92,9 @@ class TrajectoryReader {
  public:
   struct StoredField {
     std::string name;
-    int components;    ///< without the zeros that pad position and velocity
-    bool constant;     ///< written once
-    std::string unit;  ///< as the simulation said it; "" if there were no units
+    int components;    ///< written once
+    bool constant;     ///< in the simulation's notation; "" if there were no units
+    std::string unit;  ///< the simulation's numbers were multiplied by this factor
     double factor;     ///< the simulation's numbers were written times this, to be in that unit
   };
   struct StoredEnsemble {
