@@ -16,7 +16,7 @@ class MeshFrames {
  public:
   /// Starts a new series and removes existing frames. Throws Error if the folder can't be written.
   explicit MeshFrames(std::string const& folder);
-  /// Continues after `last_step`: later frames are removed, and the index is made from the remaining ones. Throws Error
+  /// Continues after `last_step`: later frames are removed, and the index lists the remaining ones. Throws Error
   /// if a frame can't be read.
   static MeshFrames append_to(std::string const& folder, std::int64_t last_step);
   /// Removes all frames and the index.

@@ -17,7 +17,7 @@ namespace boltzmann {
 
 class FrameWriter;
 
-/// The format of a file name suffix. Help, errors and the guide's table are made from these.
+/// The format of a file name suffix. Help, errors and the guide's table use these.
 struct ExportFormat {
   std::string_view name;      ///< "extended XYZ"
   std::string_view suffixes;  ///< suffixes and whole names, separated by blanks: ".xyz .extxyz"
