@@ -1,5 +1,5 @@
-// Ewald sums: the forces and energies of particles in a fully periodic box, to rounding. The oracle of every scheme for
-// periodic boxes.
+// Ewald sums: forces and energies of particles in a fully periodic box, to rounding. They are the reference for all
+// schemes in periodic boxes.
 #pragma once
 
 #include <boltzmann/core/vector.hpp>
@@ -11,7 +11,7 @@ namespace boltzmann {
 
 inline constexpr double root_pi = 1.77245385090551602730;
 
-/// What ewald_sums() computes; the arrays have one entry for each particle.
+/// The result of ewald_sums(); the arrays have one entry per particle.
 template <int D>
 struct EwaldSums {
   double energy;                  ///< of one box: half the sum of strength times potential

@@ -1,4 +1,4 @@
-// Whole steps on a mesh: columns sorted in space, slots of the field, and the loop around the kernels.
+// Whole steps on a mesh: columns sorted in space, slots of the field, and the loop that calls the kernels.
 #include <boltzmann/boundaries/far_from_box.hpp>
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/kernel_dispatch.hpp>
@@ -22,13 +22,13 @@ namespace boltzmann {
 namespace {
 
 constexpr std::size_t column_padding = 64 / sizeof(float);
-// Slots that fit the second-level cache need no order of particles.
+// If the slots fit into the second-level cache, sorting particles is not worthwhile.
 constexpr std::size_t slots_worth_sorting = 1U << 13U;
-// Particles are sorted again when the fastest one has come so many cells, or after so many steps.
+// Particles are sorted again when the fastest one has moved this number of cells, or after this number of steps.
 constexpr double cells_between_sorts = 5;
 constexpr int max_steps_between_sorts = 50;
-// Where many particles meet a slot, each waits for the one before, unless the slots of the density are kept several
-// times: so many particles to a slot are worth 2 and 4 copies.
+// If many particles share a slot, each deposit waits for the previous one unless the density is kept in several copies.
+// Thresholds of particles per slot for 2 and 4 copies.
 constexpr std::size_t worth_two_copies = 8, worth_four_copies = 64;
 
 template <class Real>
@@ -90,7 +90,7 @@ class MeshSteps final : public FusedSteps {
 
   void store(double time) override {
     for (auto& columns : columns_) {
-      if (!columns.moves || !columns.task.pending) continue;  // else rows are as they should be
+      if (!columns.moves || !columns.task.pending) continue;  // otherwise rows are up to date
       accelerate(columns, time);
       store(columns);
     }
@@ -102,14 +102,14 @@ class MeshSteps final : public FusedSteps {
     SourceKind kind;
     bool moves;
     double mass, strength;
-    std::size_t size;  // of this rank's share
+    std::size_t size;  // owned particles of this rank
     AlignedArray<Fixed> position[3], other_position[3];
     AlignedArray<Real> velocity[3], other_velocity[3];
     std::vector<std::uint32_t> order, other_order;  // the number of each particle
     StepTask<Real> task;
-    double fastest = 0;    // square of a velocity in the last step
-    bool failed = false;   // there
-    double travelled = 0;  // cells since the last sort
+    double fastest = 0;    // greatest square of a velocity in the last step
+    bool failed = false;   // in the last step
+    double travelled = 0;  // cells moved since the last sort
     int steps = 0;
   };
 
@@ -129,7 +129,8 @@ class MeshSteps final : public FusedSteps {
     tallies_.resize(slots_ * width_ * copies_);
   }
 
-  /// Parts of a cell: as fine as the numbers allow, and no finer than what comes back from the rows' doubles.
+  /// Fixed-point resolution: as fine as the integers allow, but not finer than what the doubles in the rows can
+  /// restore.
   void choose_bits() {
     double largest = 1, furthest = 1;
     for (int a = 0; a < dimension_; ++a) {
@@ -147,11 +148,11 @@ class MeshSteps final : public FusedSteps {
     }
   }
 
-  /// What has happened to particles in a failing step: to those with the lowest numbers, however they are sorted.
+  /// The failures of a step, each of the particle with the lowest number, independent of the sorting.
   struct Failure {
     static constexpr std::uint32_t nobody = std::numeric_limits<std::uint32_t>::max();
     std::uint32_t not_finite = nobody, furthest = nobody, left = nobody;
-    int along = 0;       // the axis on which it has left
+    int along = 0;       // the axis along which it has left
     double fastest = 0;  // square of a velocity
 
     void take(Failure const& other) {
@@ -162,7 +163,7 @@ class MeshSteps final : public FusedSteps {
     }
   };
 
-  /// Gives the first particle that can't be where it is.
+  /// Returns the first particle with an invalid position.
   std::size_t add_columns(MeshScheme::Loaded const& loaded, bool moves) {
     AnyEnsemble& ensemble = *loaded.ensemble;
     Columns& columns = columns_.emplace_back();
@@ -198,10 +199,10 @@ class MeshSteps final : public FusedSteps {
           double const v = row[columns.kind.velocity + a];
           bool const inside =
               x >= 0 && x <= static_cast<double>(end_[a]) && std::isfinite(v) && !far_from_box(box, row[a], a);
-          if (!inside)  // the first one, whoever comes first
+          if (!inside)  // the lowest number, independent of the order of threads
             for (auto first = outside.load(); number < first && !outside.compare_exchange_weak(first, number);) {
             }
-          // What rounds to the high edge of a periodic axis is at the low one.
+          // A position that rounds to the high edge of a periodic axis is mapped to the low edge.
           bool const wrapped = scheme_.box().periodic(a) && x >= static_cast<double>(end_[a]);
           columns.position[a][i] = inside && !wrapped ? static_cast<Fixed>(x) : 0;
           columns.velocity[a][i] = static_cast<Real>(v);
@@ -239,7 +240,7 @@ class MeshSteps final : public FusedSteps {
 
   bool sorting() const { return slots_ * (numbers_ * sizeof(Real) + width_ * 8) > slots_worth_sorting; }
 
-  /// The rotation of velocities in half a step: what it makes of the axes.
+  /// The rotation of velocities in half a step, as the rotated axes.
   void set_turn(Columns& columns) {
     auto const rotations = scheme_.pairs_.rotations(*columns.ensemble, true);
     columns.task.turns = !rotations.empty() && columns.moves;
@@ -256,7 +257,7 @@ class MeshSteps final : public FusedSteps {
     }
   }
 
-  /// What strengths count, so that no sum can be too large.
+  /// Chooses the unit in which strengths are counted, so that no sum can overflow.
   void count_units() {
     std::size_t particles = 0;
     double greatest = 0;
@@ -284,7 +285,7 @@ class MeshSteps final : public FusedSteps {
     }
   }
 
-  /// Kernels move what stands behind the last particle, too.
+  /// Kernels also process the padding after the last particle.
   void clear_padding(Columns& columns) {
     for (std::size_t i = columns.size; i < columns.size + column_padding; ++i)
       for (int a = 0; a < dimension_; ++a) columns.position[a][i] = 0, columns.velocity[a][i] = 0;
