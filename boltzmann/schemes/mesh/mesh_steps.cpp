@@ -291,7 +291,7 @@ class MeshSteps final : public FusedSteps {
       for (int a = 0; a < dimension_; ++a) columns.position[a][i] = 0, columns.velocity[a][i] = 0;
   }
 
-  /// Runs a kernel over all particles of an ensemble, counting them.
+  /// Runs a kernel over all particles of an ensemble, which also counts them.
   void run(Columns& columns, StepKernel<Real> kernel) {
     StepTask<Real>& task = columns.task;
     point_at_columns(columns);
@@ -311,9 +311,9 @@ class MeshSteps final : public FusedSteps {
     }
   }
 
-  /// Before the sum over all ranks.
+  /// Checks for failures; call it before the sum over all ranks.
   void check_together() {
-    std::size_t failing = 0;  // the first of those that have failed, counted from the last
+    std::size_t failing = 0;  // the first failed particle, numbered through all ensembles
     for (std::size_t c = 0; c < columns_.size() && failing == 0; ++c)
       if (columns_[c].failed) failing = columns_.size() - c;
     if (division_)
@@ -329,7 +329,7 @@ class MeshSteps final : public FusedSteps {
       std::uint32_t const number = columns.order[i];
       for (int a = dimension_ - 1; a >= 0; --a) {
         one.fastest += std::pow(static_cast<double>(columns.velocity[a][i]), 2);
-        // It was put on the low edge, so that it could do no harm.
+        // The kernel has clamped it to the low edge.
         if (columns.position[a][i] == 0 && columns.task.boundary[a] == StepBoundary::ends)
           one.left = number, one.along = a;
       }
@@ -342,7 +342,7 @@ class MeshSteps final : public FusedSteps {
     return all;
   }
 
-  /// Somebody has failed: who?
+  /// Finds the failed particle and throws.
   [[noreturn]] void explain(Columns const& columns) const {
     auto const& name = columns.ensemble->name();
     Failure const mine = find_failure(columns);
@@ -371,7 +371,7 @@ class MeshSteps final : public FusedSteps {
     throw PhysicsFailure(fmt::format("a particle of '{}' has left the mesh", name));
   }
 
-  /// What all particles count on the nodes, of all ranks.
+  /// Sums the counts on the nodes over all ranks.
   void sum_counts() {
     Ghosts const& ghosts = work_.ghosts;
     std::size_t const nx = ghosts.nodes(0), rows = ghosts.nodes(1) * ghosts.nodes(2);
@@ -393,10 +393,10 @@ class MeshSteps final : public FusedSteps {
     if (division_) division_->team().sum(counts_);
   }
 
-  /// Rows of nodes that a thread takes at once.
+  /// Rows of nodes per task of a thread.
   std::size_t row_grain() const { return std::max<std::size_t>(1, 16384 / work_.ghosts.nodes(0)); }
 
-  /// From counts to the slots of the field.
+  /// Solves for the potential and stores the field in slots.
   void solve() {
     sum_counts();
     ++scheme_.solves_;
@@ -432,12 +432,13 @@ class MeshSteps final : public FusedSteps {
       if (!columns.moves) continue;
       double least = std::numeric_limits<double>::infinity();
       for (int a = 0; a < dimension_; ++a) least = std::min(least, work_.grid.spacing[a]);
-      columns.travelled += 0.3 * std::sqrt(columns.fastest) * std::abs(dt_) / least;  // most are slower
+      // an estimate: most particles are slower than the fastest
+      columns.travelled += 0.3 * std::sqrt(columns.fastest) * std::abs(dt_) / least;
       if (++columns.steps >= max_steps_between_sorts || columns.travelled > cells_between_sorts) sort(columns);
     }
   }
 
-  /// Puts particles into the order of their cells. Nothing that is computed depends on it.
+  /// Sorts particles by their cells. Results do not depend on it.
   void sort(Columns& columns) {
     std::size_t const size = columns.size;
     Ghosts const& ghosts = work_.ghosts;
@@ -449,7 +450,7 @@ class MeshSteps final : public FusedSteps {
         cell = cell * (a == 0 ? nx : a == 1 ? ny : nz) + static_cast<std::size_t>(columns.position[a][i] >> bits_);
       return cell;
     };
-    // As many parts as threads, and no more counters than particles.
+    // As many parts as threads, but not more counters than particles.
     std::size_t const parts = std::clamp<std::size_t>(
         std::min<std::size_t>(static_cast<std::size_t>(scheme_.threads()), size / (cells + 1)), 1, 64);
     std::vector<std::vector<std::uint32_t>> starts(parts);
@@ -489,8 +490,8 @@ class MeshSteps final : public FusedSteps {
     columns.travelled = 0;
   }
 
-  /// The second kick that is pending, and all into the rows. The next step begins with the same field at the same
-  /// places, at the same time, and so with the same kick, which is then given at once.
+  /// Completes the pending second kick and stores all particles in the rows. The next step starts with the same field
+  /// at the same places and time, and so with the same kick, which is applied here too.
   void store(Columns& columns) {
     StepTask<Real>& task = columns.task;
     point_at_columns(columns);
@@ -509,12 +510,12 @@ class MeshSteps final : public FusedSteps {
 
   MeshScheme& scheme_;
   MeshScheme::Work& work_;
-  Division* division_;  // of the run, in which columns are those of this rank's share
+  Division* division_;  // set in a divided run, in which columns are the owned particles of this rank
   int dimension_;
   double dt_;
   StepKernels<Real> kernels_;
   int bits_ = 0;
-  double part_[3] = {1, 1, 1};  // of a length
+  double part_[3] = {1, 1, 1};  // as a length
   Fixed end_[3] = {};
   std::size_t slots_x_ = 0, slots_y_ = 0, slots_ = 0, width_ = 0, numbers_ = 0, copies_ = 1;
   double unit_ = 1;
