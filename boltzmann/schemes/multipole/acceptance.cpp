@@ -1,4 +1,4 @@
-// What the moments of a node, and its cores, leave of its surroundings to expansions.
+// Computes limits for expansions from the moments and cores of nodes.
 #include <boltzmann/schemes/multipole/acceptance.hpp>
 
 #include <limits>
@@ -20,7 +20,7 @@ void AcceptanceCriterion<Kind>::add(std::size_t number, Tree<typename Kind::Sour
   limits_[number] = limits_of(number, node.radius, moments, numbers);
 }
 
-/// From those of the children, or of the particles.
+/// Combines those of the children, or of the particles.
 template <class Kind>
 typename AcceptanceCriterion<Kind>::Cores AcceptanceCriterion<Kind>::cores_of(
     TreeNode const& node, Tree<typename Kind::Source> const& tree) const {
@@ -65,7 +65,7 @@ typename AcceptanceCriterion<Kind>::Limits AcceptanceCriterion<Kind>::limits_of(
     for (int density = 0; density < Kind::densities; ++density) {
       double const* const m = moments + static_cast<std::size_t>(density) * numbers;
       if constexpr (D == 3)
-        for (int k = 0; k <= 2 * n; ++k) power += (k > 0 ? 2 : 1) * m[n * n + k] * m[n * n + k];  // of m and of -m
+        for (int k = 0; k <= 2 * n; ++k) power += (k > 0 ? 2 : 1) * m[n * n + k] * m[n * n + k];  // for m and -m
       else
         power += (m[2 * n] * m[2 * n] + m[2 * n + 1] * m[2 * n + 1]) * (n > 0 ? n * n : 1);
     }
@@ -89,7 +89,7 @@ typename AcceptanceCriterion<Kind>::Limits AcceptanceCriterion<Kind>::limits_of(
   return limits;
 }
 
-/// `strength`: Q / e; the squares of eps in the mean, the least, and the greatest.
+/// `strength`: Q / e; squares of eps: mean, least and greatest.
 template <class Kind>
 void AcceptanceCriterion<Kind>::limit_softening(Limits& limits, double a, double strength, double mean, double least,
                                                 double most) const {
