@@ -1,5 +1,5 @@
-// What sums over vortices give besides velocities: slopes of the velocity at a place, and at vortices the vorticity and
-// the potentials that energies are made of. Private to this room.
+// Sums over vortices besides velocities: velocity gradients at a place, and, at vortices, the vorticity and the
+// potentials for energies. Private to this module.
 #pragma once
 
 #include <boltzmann/laws/vortex.hpp>
@@ -120,8 +120,8 @@ struct CoreSums<GaussianCore> {
   static constexpr int terms = 18;
 };
 
-/// The flow at a place: in 2D velocity and vorticity, in 3D velocity and its slopes, slope[a] the gradient of component
-/// a.
+/// The flow at a place: in 2D velocity and vorticity, in 3D velocity and its gradient, slope[a] the gradient of
+/// component a.
 template <int D, class Real>
 struct SlopedFlow;
 template <class Real>
@@ -160,8 +160,8 @@ struct SlopesOf {
   }
 };
 
-/// At vortices. vorticity: of the flow, with the cores as they are; of_both: the same seen through the core of the one
-/// that asks, too; potential: what its vorticity times that is twice the energy of.
+/// At vortices. vorticity: of the flow with its cores; of_both: the same, averaged also over the core of the target;
+/// potential: its product with the vorticity is twice the energy of a vortex.
 template <int D, class Real>
 struct FlowSums;
 template <class Real>
@@ -170,7 +170,7 @@ struct FlowSums<2, Real> {
 };
 template <class Real>
 struct FlowSums<3, Real> {
-  Vector<3, Real> spread;  ///< the vorticity of the elements themselves, with whatever divergence it has
+  Vector<3, Real> spread;  ///< the vorticity of the elements themselves, including its divergence
   Vector<3, Real> vorticity, of_both, potential;
 };
 
@@ -181,7 +181,7 @@ struct SumsOf {
     auto const r = p.position - q.position;
     using Real = std::remove_cvref_t<decltype(r[0])>;
     Real const square = dot(r, r), core2 = q.core * q.core, both = core2 + p.core * p.core;
-    // Two Gaussians on each other make a Gaussian; others are seen through one core of the mean square.
+    // The convolution of two Gaussians is a Gaussian; for other cores use one core of the mean square.
     constexpr bool gaussian = std::is_same_v<Core, GaussianCore>;
     FlowSums<P::dimension, Real> sums;
     if constexpr (P::dimension == 2) {
