@@ -113,7 +113,7 @@ class Team {
   struct Counts {
     std::uint64_t collectives = 0;  ///< sums, minima, broadcasts, gathers and exchanges: one wait each
     std::uint64_t messages = 0;     ///< sent in exchanges,
-    std::uint64_t bytes = 0;        ///< sent in exchanges,
+    std::uint64_t bytes = 0;        ///< their total size,
     std::uint64_t numbers = 0;      ///< numbers in sums, minima and maxima
   };
   Counts const& counts() const { return counts_; }
