@@ -1,4 +1,4 @@
-// Schema: what a scenario may have, for editors that complete and mark.
+// Schema: the allowed contents of a scenario, for completion and validation in editors.
 #pragma once
 
 #include <string>
