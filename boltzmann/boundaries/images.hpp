@@ -36,7 +36,7 @@ enum class ImageRule : unsigned char {
               ///< which temperature is odd, the components along the wall change sign
   tensor,     ///< pressure or stress of such velocities: reflected at a wall that slips, unchanged at one that does not
 };
-/// The rule for one number of a row, and its component of a vector, or its two indices of a tensor.
+/// The rule of one number of a row, and its component of a vector, or its two indices of a tensor.
 struct ImageComponent {
   ImageRule rule = ImageRule::same;
   int axis = 0, axis2 = 0;
@@ -110,7 +110,7 @@ inline Images::Range Images::turns_near_end(int axis, double reach, double x) co
     return there >= least && there <= greatest;
   };
   Range range;
-  if (box_->periodic(axis) && length > 2.1 * reach) {  // at most one image, whatever the rounding
+  if (box_->periodic(axis) && length > 2.1 * reach) {  // at most one image, for any rounding
     if (x - length >= least) return {-1, 0};
     if (x + length <= greatest) return {0, 1};
   } else if (box_->periodic(axis)) {

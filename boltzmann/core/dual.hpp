@@ -1,4 +1,4 @@
-// Numbers with derivatives: whatever is computed from the separation r of two particles carries its own gradient with
+// Numbers with derivatives: a number that is computed from the separation r of two particles carries its gradient with
 // respect to r (automatic differentiation, forward mode). Laws that are written as an energy use it:
 // laws/by_energy.hpp.
 //

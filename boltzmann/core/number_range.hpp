@@ -6,7 +6,7 @@
 
 namespace boltzmann {
 
-/// From `low` (exclusive if so marked) to `high`.
+/// From `low` (excluded if low_excluded) to `high`.
 struct NumberRange {
   double low = -std::numeric_limits<double>::infinity(), high = std::numeric_limits<double>::infinity();
   bool low_excluded = false;

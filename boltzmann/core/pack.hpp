@@ -158,7 +158,7 @@ struct Pack {
 #endif
       return select(a < b, b, a);
   }
-  friend Pack abs(Pack a) {  // also of -0 and of NaN: clears the sign bit
+  friend Pack abs(Pack a) {  // also for -0 and NaN: clears the sign bit
     using Bits = typename Mask<Real, W>::Native;
     return (Native)((Bits)a.native & (Bits{} + std::numeric_limits<typename detail::integer_of<Real>::type>::max()));
   }

@@ -6,7 +6,7 @@
 // or limit a number; the bits are the same without them. Where a rounding error would matter, products are exact (their
 // factors have few bits), so that a compiler that fuses a * b + c changes nothing there; in the polynomials it may
 // change the last bits. So: the same bits on every instruction set with FMA (from -O2), the same bits on every one
-// without, and between the two a difference within the errors below.
+// without, and between the two differences within the errors below.
 //
 // Largest errors measured against 80-bit arithmetic, in units in the last place (tests/core/pack_math_test.cpp):
 //   exp 1.2   expm1 1.1   log 0.95   pow 1.1   sin 0.8   cos 0.8   tanh 1.9   erfc 5.5   erf 3.0

@@ -104,8 +104,8 @@ class Team {
   /// Exchanges messages between pairs of ranks, none with itself. Each sent message is received by the other rank, with
   /// the same size, in the order in which the messages of the pair are listed.
   void exchange(std::span<Message const> messages);
-  /// Exchanges one message of doubles between each two ranks, of sizes that both know: write(r, to) writes that for
-  /// rank r, read(r, from) reads that of rank r. Copies nothing if ranks see each other's memory.
+  /// Exchanges one message of doubles between each two ranks, of sizes that both ranks have: write(r, to) writes the
+  /// one for rank r, read(r, from) reads the one from rank r. Nothing is copied if ranks see each other's memory.
   void exchange(std::span<std::size_t const> sent, std::span<std::size_t const> received,
                 std::function<void(std::size_t r, double* to)> const& write,
                 std::function<void(std::size_t r, double const* from)> const& read);
@@ -122,8 +122,8 @@ class Team {
   /// Sets the time limit of a wait.
   void patience(double seconds) { patience_ = seconds; }
 
-  /// Collects the ballots of all ranks, and whether this rank has failed: `failed` is its exception, if any. All ranks
-  /// get the same outcome, whatever fails.
+  /// Collects the ballots of all ranks. `failed` is the exception with which this rank has failed, if any. All ranks
+  /// get the same outcome, for any failure.
   Outcome vote(Ballot const& ballot, std::exception_ptr const& failed = nullptr);
   /// A vote inside a run, before each collective operation. A failure of any rank is thrown by all, as an
   /// AgreedFailure.

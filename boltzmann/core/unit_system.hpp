@@ -84,9 +84,9 @@ class UnitSystem {
   /// fs"), the product ("65.46 fs").
   std::string text(double number, Dimension, int digits = 4) const;
 
-  /// The unit of this system itself, exact to six digits: "erg", "cm/s", "amu angstrom^2/ps^2" if the units of the base
-  /// are known ones; else a number with a unit, "1.804 angstrom", rounded to six digits; "" for a pure number and in a
-  /// reduced base. parse_quantity reads it back (with a "1 " before it if there is no number).
+  /// The unit of this system itself, exact to six digits: "erg", "cm/s", "amu angstrom^2/ps^2" if the base has named
+  /// units. Otherwise it is a number with a unit, "1.804 angstrom", rounded to six digits. It is "" for a pure number
+  /// and in a reduced base. parse_quantity reads it back (with a "1 " before it if there is no number).
   std::string unit_name(Dimension) const;
 
   Scale scale() const { return scale_; }

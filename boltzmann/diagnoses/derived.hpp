@@ -20,10 +20,12 @@ struct QuantityMeaning {
   Dimension dimension;
 };
 
-/// All valid names for an ensemble: its fields ("mass", "position.x", "stress.xy"; in 1D also "position"), "speed",
-/// "kinetic-energy" (with mass and velocity), "internal-energy" (with mass and specific_energy), "influence.x" (a force
-/// for classes with mass and velocity, else a velocity: its first dimension() components) and "potential-energy". For a
-/// class without velocity "velocity.x" is its influence.
+/// All valid names for an ensemble:
+/// - its fields: "mass", "position.x", "stress.xy"; in 1D also "position";
+/// - "speed", "potential-energy", "kinetic-energy" (with mass and velocity), "internal-energy" (with mass and
+/// specific_energy);
+/// - "influence.x": a force for classes with mass and velocity, else a velocity (its first dimension() components).
+/// For a class without velocity "velocity.x" is its influence.
 std::vector<QuantityMeaning> quantities(AnyEnsemble const& ensemble);
 
 /// A name may be replaced by a formula of these quantities, "0.5*mass*(velocity.x - 1)^2", with '_' for '-'

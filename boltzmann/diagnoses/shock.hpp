@@ -64,10 +64,10 @@ struct ShockOptions {
 /// wide. From these it fits the front's velocity. It averages the matter in a window that moves with the front behind
 /// it, and ahead of it up to a margin before the far end.
 ///
-/// Columns: front position; shock speed (the fitted velocity: negative if it runs towards the low end) and its standard
-/// error; then for the state behind, and the same ahead: density, velocity and pressure along the axis, specific energy
-/// (thermal, potential and internal), kinetic temperature (mean, and along each axis), internal temperature; the
-/// residuals of the three jumps. NaN while there are too few samples.
+/// Columns: front position, shock speed (the fitted velocity: negative if it runs towards the low end) and its standard
+/// error. Then, for the state behind and for the state ahead: density, velocity and pressure along the axis, specific
+/// energy (thermal, potential and internal), kinetic temperature (mean, and along each axis) and internal temperature.
+/// Last the residuals of the three jumps. Values are NaN while there are too few samples.
 class Shock final : public Diagnosis {
  public:
   using Options = ShockOptions;

@@ -37,10 +37,12 @@ struct Layer {
 };
 Layer layer_of(std::span<double const> position, std::span<double const> mass, Box const& box, int axis);
 
-/// Columns of each slab: kinetic temperature (the mean over the axes, and along each of them, about the slab's mean
-/// velocity, over N - 1), internal temperature (harmonic mean of the field "temperature"; NaN if no class has it),
-/// density (mass / (width of the layer * cross-section of the box)), velocity, position (of the centre of mass). The
-/// first sample selects the members, which are the state in checkpoints.
+/// Columns of each slab:
+/// - kinetic temperature: the mean over the axes, and along each of them, about the slab's mean velocity, over N - 1;
+/// - internal temperature: harmonic mean of the field "temperature"; NaN if no class has it;
+/// - density: mass / (width of the layer * cross-section of the box);
+/// - velocity, and position of the centre of mass.
+/// The first sample selects the members, which are the state in checkpoints.
 class Slab final : public Diagnosis {
  public:
   using Options = SlabOptions;

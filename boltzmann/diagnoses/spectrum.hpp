@@ -54,11 +54,11 @@ struct UniformSamples {
 };
 
 /// Interpolates the values of particles on a line, in any order, to n uniformly spaced points from the smallest to the
-/// greatest position: sorted by position, then linearly between the two neighbours of each point (particles at the same
-/// position count as one with their mean value). For n uniformly spaced particles it returns their own values.
-/// Interpolation between randomly placed particles lowers the spectrum at wave lengths near and below their distance:
-/// check `largest_gap`. Throws Error if the lengths differ, a number is not finite, n < 2, or fewer than two positions
-/// differ.
+/// greatest position. It sorts by position, then interpolates linearly between the two neighbours of each point.
+/// Particles at the same position count as one with their mean value. For n uniformly spaced particles it returns their
+/// own values. Interpolation between randomly placed particles lowers the spectrum at wave lengths near and below their
+/// distance: check `largest_gap`. Throws Error if the lengths differ, a number is not finite, n < 2, or fewer than two
+/// positions differ.
 UniformSamples sample_uniformly(std::span<double const> positions, std::span<double const> values, std::size_t n);
 
 }  // namespace boltzmann

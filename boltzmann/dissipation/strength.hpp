@@ -6,11 +6,11 @@
 namespace boltzmann {
 
 /// Friction gamma_ij dt and noise sigma_ij sqrt(dt), without chi. If friction depends on the pair's temperature,
-/// `change` adds the term of its relative change (TypedFriction::At::change), times gamma_0 dt: Eq 4 of the source,
-/// corrected (see Convention). The arguments, with internal temperatures Ti, Tj and heat capacities Ci, Cj: 1/Ti +
-/// 1/Tj; their product 1/(Ti Tj); the `curvatures` 1/(Ti^2 Ci) + 1/(Tj^2 Cj), used only by constant_friction; 1/mi +
-/// 1/mj, and the square of the relative velocity in this number of directions, used only by the deterministic
-/// convention.
+/// `by_change` is the factor of its relative change (TypedFriction::At::change), times gamma_0 dt: Eq 4 of the source,
+/// corrected (see Convention). Ti, Tj are internal temperatures and Ci, Cj heat capacities. Arguments: 1/Ti + 1/Tj;
+/// their product 1/(Ti Tj); the `curvatures` 1/(Ti^2 Ci) + 1/(Tj^2 Cj), used only by constant_friction; 1/mi + 1/mj;
+/// the square of the relative velocity in this number of directions. The deterministic convention alone uses the last
+/// two.
 template <class Real>
 struct Strength {
   Real friction = 0.0, noise = 0.0, by_change = 0.0;

@@ -24,13 +24,13 @@ class CodeWriter : public MachineCode, private Steps {
   CodeWriter(FormulaProgram const& program, int width, std::optional<GatheredColumns> const& gathered)
       : Steps(32768 + 1024 * (program.steps.size() + program.row_steps.size()), width,
               gathered ? gathered->least_square : least_square) {
-    // If a list is generated several times its labels must be defined before. After the code, constants are read faster
+    // Labels must be defined before a list that is generated several times. After the code, constants are read faster
     // on AVX-512, by a seventh of Morse's pass.
     if (width_ == 4) number_packs();
     auto const& steps = program.steps;
     Flow flow(steps, program.columns);
     for (auto const result : program.results) flow.read(result, never);
-    for (auto& value : flow.values) value.in_column = true;  // those of other steps are not in registers
+    for (auto& value : flow.values) value.in_column = true;  // except those that steps write
     for (auto const& of : flow.steps) flow.values[static_cast<std::size_t>(of.to)].in_column = false;
     flow_ = &flow;
     std::vector<std::size_t> begins;

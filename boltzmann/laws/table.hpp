@@ -1,4 +1,4 @@
-// Laws from tables: pair energies that are known as numbers, or are too expensive to compute for every pair.
+// Laws from tables: pair energies that are given as numbers, or are too expensive to compute for every pair.
 #pragma once
 
 #include <boltzmann/core/pack_math.hpp>

@@ -52,10 +52,10 @@ double spacing_for_density(Lattice kind, int dimension, double number_density);
 /// The distance of nearest neighbours for a lattice constant: for fcc, bcc and diamond the edge of the cube.
 double spacing_for_constant(Lattice kind, int dimension, double lattice_constant);
 
-/// A lattice that fills the block from `low` to `high` exactly: along each axis the number of cells that comes nearest
-/// to this spacing, stretched to fit, with a site in the middle of each (for cells with several sites: the outermost
-/// equally far from both ends). A triangular lattice has an even number of rows, so that it also fills a periodic box.
-/// For particles that carry mass: each has an equal part of the volume.
+/// A lattice that fills the block from `low` to `high` exactly. Along each axis it has the number of cells that comes
+/// nearest to this spacing, stretched to fit, with a site in the middle of each. For cells with several sites the
+/// outermost are equally far from both ends. A triangular lattice has an even number of rows, so that it also fills a
+/// periodic box. For particles that carry mass: each has an equal part of the volume.
 struct Filling {
   Lattice kind = Lattice::square;
   double spacing = 1;

@@ -2,9 +2,9 @@
 // rows, particles are sent to the ranks that own or read them, and each rank sorts its own.
 //
 // Rows are in the order of cells, and cells run along the first axis fastest. So the rows of a rank are runs of grid
-// lines (in 1D of cells), here called *units*. Every rank knows the number of particles in each unit; which ranks need
-// a unit then follows from geometry. With one run for each rank it gets a layer of space, cut anywhere. With many ranks
-// each gets columns of whole units.
+// lines (in 1D of cells), here called *units*. All ranks have the number of particles in each unit. Geometry then
+// determines the ranks that need a unit. With one run per rank, a rank has a layer of space, cut anywhere. With many
+// ranks each has columns of whole units.
 #include <boltzmann/core/in_dimension.hpp>
 #include <boltzmann/neighbours/neighbourhood.hpp>
 #include <boltzmann/neighbours/shares_of_space.hpp>
@@ -22,7 +22,7 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 /// The distance up to which a rank has the neighbours of a row: the reach, plus the rounding of the single-precision
-/// search, plus the distance that rows may move before they get new references.
+/// search, plus the margin by which rows may move before they get new references.
 double wide(double reach, double margin) {
   constexpr double rounding = 1e-5;  // relative to the reach
   return reach * (1 + rounding) + margin;

@@ -46,7 +46,7 @@ std::vector<std::uint32_t> cells_of(Grid const& grid, double const* rows, std::s
                                     int threads = 1);
 
 /// A grid fine enough for searches within `reach`, and the points in each cell. The number of cells is bounded by a
-/// multiple of the number of points, whatever their extent.
+/// multiple of the number of points, for any extent.
 class Cells {
  public:
   Cells() = default;

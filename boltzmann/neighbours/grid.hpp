@@ -10,7 +10,7 @@ namespace boltzmann {
 inline constexpr double largest_block[3] = {1.5, 0.6, 0.6};
 
 /// Cells of given edges that fill all of space, folded onto `count` of them along each axis: cells a multiple of
-/// `count` apart are one. So the number of cells is bounded, whatever the extent of the particles.
+/// `count` apart are one. So the number of cells is bounded for any extent of the particles.
 struct Grid {
   int dimension = 1;
   std::int64_t count[3] = {1, 1, 1};  ///< along each axis, the first varies fastest

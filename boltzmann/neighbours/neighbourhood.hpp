@@ -58,8 +58,8 @@ class Neighbourhood {
   /// Changes the cut-off of a list; all lists are rebuilt at the next refresh.
   void cutoff(std::size_t list, double length);
   double cutoff(std::size_t list) const { return lists_[list].cutoff; }
-  /// Sets the distance of motion, of two particles together, after which lists are rebuilt. Error if it is negative or
-  /// not finite.
+  /// Sets the skin: lists reach cutoff + skin, and are rebuilt when particles have moved too far for it. Error if it is
+  /// negative or not finite.
   void skin(double length);
   double skin() const;
   /// Invalidates the lists: they are rebuilt at the next refresh.

@@ -13,7 +13,7 @@
 namespace boltzmann {
 namespace {
 
-/// Assigns lines in order to ranks [first, first + count), with equal work as far as whole lines allow. Each line goes
+/// Assigns lines in order to ranks [first, first + count), with equal work as far as whole lines allow. A line belongs
 /// to the rank in whose part of all work its middle is.
 template <class Lines, class Give>
 void share_lines(Lines const& lines, std::vector<std::int64_t> const& work, int first, int count, Give const& give) {

@@ -17,10 +17,10 @@
 
 namespace boltzmann {
 
-/// Domain decomposition. Every rank has a row for every particle: row i is particle i everywhere, and all ranks know
-/// its owner. The owner advances it; other ranks have copies that the owner has sent. Before influences are calculated,
-/// owners send the rows that others read (RowExchange). Before any observer runs, all rows are gathered (gather()). No
-/// result depends on the owners.
+/// Domain decomposition. Every rank has a row for every particle: row i is particle i everywhere, and all ranks store
+/// the owners. The owner advances a particle; other ranks have copies that the owner has sent. Before influences are
+/// calculated, owners send the rows that others read (RowExchange). Before any observer runs, all rows are gathered
+/// (gather()). No result depends on the owners.
 ///
 /// All calls except queries are for all ranks.
 class Division {
@@ -35,11 +35,11 @@ class Division {
   Division& operator=(Division const&) = delete;
 
   Team& team() const { return team_; }
-  /// Adds an ensemble, in equal parts by particle number until owners are set. All its rows are known everywhere.
+  /// Adds an ensemble, in equal parts by particle number until owners are set. All its rows are current on all ranks.
   void add(AnyEnsemble& ensemble);
   bool has(AnyEnsemble const& ensemble) const;
   std::vector<AnyEnsemble*> const& ensembles() const { return ensembles_; }
-  /// Sets the owners of particles. All rows are known everywhere.
+  /// Sets the owners of particles. All rows must be current on all ranks.
   void owners(AnyEnsemble const& ensemble, Owners owners);
   /// Adds ensembles whose particles have the owners of consecutive particles of `leader`, also after changes.
   void follow(AnyEnsemble& leader, std::vector<AnyEnsemble*> const& followers);
@@ -86,11 +86,11 @@ class Division {
   void read_rows() { rows_are_read_ = true; }
   /// True if other code than lists reads rows of other ranks.
   bool rows_are_read() const { return rows_are_read_ || needs_all(); }
-  /// True if all rows have to be known everywhere when owners change.
+  /// True if all rows have to be current on all ranks when owners change.
   bool needs_all() const { return several_ || keeps_together_ || !also_read_.empty(); }
 
-  /// begin() requires that all rows are known everywhere. From then on ensembles have shares (AnyEnsemble::share()),
-  /// until end().
+  /// begin() requires that all rows are current on all ranks. From then on ensembles have shares
+  /// (AnyEnsemble::share()), until end().
   void begin();
   void end();
   bool goes_on() const { return goes_on_; }
@@ -119,9 +119,9 @@ class Division {
 
   /// Invalidates copies: owners have moved particles, so other ranks have old rows.
   void moved() { whole_ = false; }
-  /// True if all rows are known everywhere.
+  /// True if all rows are current on all ranks.
   bool is_whole() const { return whole_; }
-  /// Gathers all rows of all ensembles on all ranks, unless they are known.
+  /// Gathers all rows of all ensembles on all ranks, unless they are current.
   void make_whole();
   /// Gathers influences and rates.
   void gather_influences();

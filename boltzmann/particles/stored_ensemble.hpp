@@ -1,4 +1,4 @@
-// StoredEnsemble: particles of a class of which only the fields are known, read from files.
+// StoredEnsemble: particles of a class that is defined by its fields only, read from files.
 #pragma once
 
 #include <boltzmann/particles/ensemble.hpp>

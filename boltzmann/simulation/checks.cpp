@@ -105,7 +105,7 @@ void Simulation::check_start(bool added) {
   }
 }
 
-/// Prepares the integrator of an ensemble: its stages, and what it takes over from the schemes.
+/// Prepares the integrator of an ensemble: its stages, and the work that it does for the schemes.
 Simulation::Part const& Simulation::ready_part(AnyEnsemble& ensemble) {
   Part* part = part_of(ensemble);
   if (!part) part = &parts_.emplace_back(Part{&ensemble, usual_integrator(ensemble), 0, 0, {}, nullptr});

@@ -135,7 +135,7 @@ void Descent::step() {
   move();
 }
 
-/// Uphill: goes half a step back, and restarts from rest with shorter steps.
+/// Uphill: moves half a step back, and restarts from rest with shorter steps.
 void Descent::halve() {
   downhill_ = 0;
   step_ = std::max(step_falls * step_, shortest_);

@@ -111,9 +111,9 @@ class Simulation {
   /// The result of the last minimisation; nothing: there was none.
   std::optional<Minimised> const& minimised() const { return minimised_; }
 
-  /// Prepares the simulation and refuses invalid ones, by an Error of one line: an ensemble without an integrator,
-  /// particles at invalid positions, influences that are not finite (two coincident particles), a force that would move
-  /// its particle in the first step further than its law's length (or the box). run() calls it once.
+  /// Prepares the simulation, and throws an Error of one line if it can't run. Reasons: an ensemble without an
+  /// integrator, particles at invalid positions, influences that are not finite (two coincident particles), or a force
+  /// that would move its particle in the first step further than its law's length (or the box). run() calls it once.
   void check();
 
   /// Advances by this number of steps; fewer if stop() is called (from an observer, a signal handler or another
