@@ -18,7 +18,7 @@ namespace boltzmann {
 class AnyEnsemble;
 class Division;
 
-/// What happens at the two ends of an axis.
+/// The treatment of the two ends of an axis.
 enum class Boundary {
   open,        ///< particles leave freely
   reflecting,  ///< elastic reflection
@@ -101,7 +101,7 @@ class Box {
   /// Length, area or volume of the box (at the current positions of walls).
   double volume() const;
 
-  /// Whether there is a wall at this end: at both ends of a mirror or reflecting axis, unless one was opened.
+  /// True if there is a wall at this end: at both ends of a mirror or reflecting axis, unless one was opened.
   bool walled(int axis, End end) const { return walled_[axis][static_cast<int>(end)]; }
   using Walled = std::array<std::array<bool, 2>, 3>;  ///< at the low and at the high end of each axis
   Walled const& walled() const { return walled_; }
@@ -116,7 +116,7 @@ class Box {
   /// Removes the wall: particles leave freely at this end, and have no images beyond it. Error if the axis is neither
   /// mirror nor reflecting, or no wall would be left.
   void open_end(int axis, End end);
-  /// Whether some wall moves along its normal.
+  /// True if some wall moves along its normal.
   bool walls_move() const { return walls_move_; }
   /// Moves walls to their positions at this time since the start of the run, edge + velocity * time, and the images of
   /// a sheared box likewise. low(), high(), length() and volume() follow. Does nothing while walls are held.

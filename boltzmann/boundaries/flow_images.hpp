@@ -10,7 +10,7 @@ namespace boltzmann {
 
 class AnyEnsemble;
 
-/// Whether a field is the vorticity of a vortex: a circulation in 2D, in 3D a vector of circulation times length.
+/// True if a field is the vorticity of a vortex: a circulation in 2D, in 3D a vector of circulation times length.
 bool is_vorticity(Field const& field, int dimension);
 
 /// The factor of a component of vorticity in this image. Vorticity is an axial vector: beyond a wall its component

@@ -22,7 +22,7 @@ struct ImageMap {
   double operator()(double x) const { return sign * x + shift; }
 };
 
-/// How a number transforms in the image beyond a wall. Along a periodic axis only `position` changes, along the
+/// The transformation of a number in the image beyond a wall. Along a periodic axis only `position` changes, along the
 /// gradient of a sheared box `position` and `velocity`.
 enum class ImageRule : unsigned char {
   same,           ///< unchanged: mass, density, the temperature's history, ...

@@ -32,7 +32,7 @@ struct Dimension {
             exponent(a.charge * n)};
   }
 
-  /// Whether every exponent is even, so that a square root has a dimension.
+  /// True if every exponent is even, so that a square root has a dimension.
   constexpr bool is_square() const {
     return length % 2 == 0 && mass % 2 == 0 && time % 2 == 0 && temperature % 2 == 0 && charge % 2 == 0;
   }

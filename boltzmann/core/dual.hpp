@@ -47,7 +47,7 @@ struct Anisotropic {
   }
 };
 
-// What the rules of differentiation need of derivatives: sums, differences, multiples, and select().
+// The operations on derivatives that the rules of differentiation need: sums, differences, multiples, and select().
 namespace detail {
 
 template <class Real>
@@ -511,7 +511,7 @@ Dual<Real, Radial<Real>> dot(Displacement<D, Real> const& a, Displacement<D, Rea
   Real const factor = a.factor * b.factor;
   return {factor * dot(a.r, a.r), {factor}};
 }
-/// With a constant vector.
+/// The dot product with a constant vector.
 template <int D, class Real, class Number>
 requires std::convertible_to<Number, Real>
 auto dot(Displacement<D, Real> const& a, Vector<D, Number> const& b) {

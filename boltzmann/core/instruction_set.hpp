@@ -20,7 +20,7 @@ std::string to_string(InstructionSet set);
 /// The sets that this library has kernels for, the best last.
 std::vector<InstructionSet> compiled_instruction_sets();
 
-/// Those that this processor can run; none if the library was compiled for other machines only.
+/// The sets that this processor can run; none if the library was compiled for other machines only.
 std::vector<InstructionSet> instruction_sets();
 
 /// The set whose kernels run: the best one, or the one in the environment variable BOLTZMANN_INSTRUCTIONS. Chosen at

@@ -157,7 +157,7 @@ template <int W>
                                                            Pack<double, W> r) {
   auto const root = root_of_two<W>(bits_of(k_shifted));
   auto const r2 = r * r;
-  // Of degree 6, its error below 1.4e-17.
+  // A polynomial of degree 6 with an error below 1.4e-17.
   auto const a = 0x1.fffffffffffecp-2 + r * 0x1.555555547cc9ep-3;
   auto const b = (0x1.5555555639e86p-5 + r * 0x1.1112473f7f092p-7) + r2 * 0x1.6c16df70e5ddfp-10;
   auto const p = r + r2 * (a + r2 * b);

@@ -50,7 +50,7 @@ class Team {
   /// Numbers of which all ranks get the maximum.
   using Most = std::array<std::int64_t, 6>;
 
-  /// What a rank contributes to a vote.
+  /// The contribution of a rank to a vote.
   struct Ballot {
     Occasion occasion;
     bool stop = false, pause = false;
@@ -82,7 +82,7 @@ class Team {
 
   int rank() const { return rank_; }
   int size() const { return size_; }
-  /// Whether this rank prints and writes.
+  /// True if this rank prints and writes.
   bool first() const { return rank_ == 0; }
   bool alone() const { return size_ == 1; }
 

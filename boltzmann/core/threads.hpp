@@ -13,8 +13,8 @@ void parallel_ranges(std::size_t size, std::size_t grain, int threads, void cons
                      void (*call)(void const* function, std::size_t begin, std::size_t end));
 }
 
-/// How many of these threads pay for a loop over this many items: one if the loop would be done before others wake up.
-/// `work` is the cost of one item: 1 for a particle that an integrator moves, 1/8 for a near pair.
+/// The number of these threads that pays for a loop over this many items: one if the loop would be done before others
+/// wake up. `work` is the cost of one item: 1 for a particle that an integrator moves, 1/8 for a near pair.
 constexpr int threads_for(std::size_t items, double work, int threads) {
   return static_cast<double>(items) * work < 8192 ? 1 : threads;
 }

@@ -71,7 +71,7 @@ struct DiagnosisParameters {
                                                          ///< end
 };
 
-/// Of the space of the diagnosis. Error if there is no ensemble.
+/// The dimension of the diagnosis' space. Error if there is no ensemble.
 int dimension_of(DiagnosisParameters const& parameters);
 
 /// All members that a user can set. DiagnosisKind::options lists those of a kind, with their meaning.

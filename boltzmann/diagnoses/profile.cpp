@@ -206,7 +206,7 @@ Extent extent(MassiveParticles const& bodies, Box const& box, int axis) {
 
 namespace {
 
-/// Of the part between two positions and inside the box.
+/// The volume between two positions and inside the box.
 double volume_between(Box const& box, int axis, double low, double high) {
   if (box.boundary(axis) != Boundary::open) {
     low = std::max(low, box.low(axis));

@@ -53,7 +53,7 @@ class MomentSums {
   void add_volume(double volume) { volume_ += volume; }
 
   std::size_t number() const { return static_cast<std::size_t>(number_); }
-  /// Of all added particles. boltzmann_constant: in the simulation's units, units(units::boltzmann_constant).
+  /// The state of all added particles. boltzmann_constant: in the simulation's units, units(units::boltzmann_constant).
   MatterState matter(int dimension, double boltzmann_constant) const;
 
   /// The sums themselves, for checkpoints.

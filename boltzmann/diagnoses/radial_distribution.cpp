@@ -51,7 +51,7 @@ void add_positions(AnyEnsemble const& ensemble, std::size_t i, Box const& box, s
     all.push_back(box.periodic(a) ? box.wrapped(ensemble.row(i)[a], a) : ensemble.row(i)[a]);
 }
 
-/// Of a group, or of all, contiguous.
+/// The positions of a group, or of all, contiguous.
 std::vector<double> positions_of(AnyEnsemble const& ensemble, std::span<std::uint32_t const> which, Box const& box,
                                  std::vector<double> all = {}) {
   for (auto const i : members_of(ensemble, which)) add_positions(ensemble, i, box, all);

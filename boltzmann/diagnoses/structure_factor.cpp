@@ -57,7 +57,7 @@ std::array<int, 3> most_of(std::span<std::array<int, 3> const> modes) {
   return most;
 }
 
-/// Of the groups of all ensembles.
+/// The rows of the groups of all ensembles.
 std::vector<double const*> rows_of(std::vector<AnyEnsemble const*> const& ensembles,
                                    std::span<std::uint32_t const> group) {
   std::vector<double const*> rows;

@@ -142,8 +142,8 @@ class Pressure final : public SystemDiagnosis {
   }
 };
 
-/// Of a flow that the images of a sheared box drive: minus the flux of its momentum up the gradient, divided by the
-/// rate.
+/// The viscosity of a flow that the images of a sheared box drive: minus the flux of its momentum up the gradient,
+/// divided by the rate.
 class Viscosity final : public Diagnosis {
  public:
   explicit Viscosity(DiagnosisParameters const& parameters)

@@ -16,7 +16,8 @@ struct VortexMeasures {
   Triple angular_impulse{};  ///< -1/2 sum Gamma x.x; 1/3 sum x x (x x alpha); about the origin
   double helicity = 0;       ///< 3D: sum alpha.u, with the velocities of the current influences
 };
-/// Of the current state; on periodic axes for positions in the box, so that impulses jump when vortices cross its ends.
+/// Measures of the current state. On periodic axes positions are those in the box, so that impulses jump when vortices
+/// cross its ends.
 VortexMeasures vortex_measures(Ensembles of);
 
 }  // namespace boltzmann

@@ -26,7 +26,7 @@ struct BathOptions {
   int chain = 3;                                   ///< links of a Nose-Hoover chain
 };
 OptionTable const& bath_options();
-/// Of one that acts before the run.
+/// The options of a bath that acts before the run.
 OptionTable const& equilibration_bath_options();
 
 struct DissipationKind {

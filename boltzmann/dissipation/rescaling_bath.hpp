@@ -20,7 +20,7 @@ class RescalingBath : public HeatBath {
   /// Error if no degree of freedom is left, or no particle moves at a temperature above zero.
   void settle(Surroundings const& surroundings) override;
   void advance(StepContext const& context) override;
-  /// Of its particles in the current state, inside its block.
+  /// Degrees of freedom of its particles in the current state, inside its block.
   double degrees_of_freedom() const;
   /// Relative to the common velocity along axes with conserved momentum, and to the flow of a sheared box.
   double kinetic_energy() const;

@@ -315,7 +315,7 @@ class WithDrivenFields final : public Integrator, private Companion {
   bool found_elsewhere_ = false;  // some numbers are not advanced by kernels
   RateSource* source_ = nullptr;
   std::vector<double> start_, sum_, velocities_;
-  // Of the current stage:
+  // State of the current stage:
   int stage_ = 0;
   StepContext const* context_ = nullptr;
   FieldKernel kernel_ = nullptr;

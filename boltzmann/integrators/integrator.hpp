@@ -20,8 +20,8 @@ namespace boltzmann {
 class AnyEnsemble;
 class Division;
 
-/// How an ensemble is advanced. The orders hold if all ensembles that influence each other have the same method;
-/// otherwise the result is of first order in the step.
+/// The method that advances an ensemble. The orders hold if all ensembles that influence each other have the same
+/// method; otherwise the result is of first order in the step.
 enum class Method {
   euler,
   leap_frog,  ///< kick, drift, kick (velocity Verlet); the second kick is solved for the velocity if forces depend on it
@@ -37,7 +37,7 @@ enum class Method {
 Words<Method> const& method_words();
 std::string to_string(Method method);
 
-/// How a stage has changed positions.
+/// The change of positions by a stage.
 enum class Motion {
   none,          ///< unchanged: influences are still valid
   intermediate,  ///< moved to a point inside the step
@@ -155,7 +155,7 @@ class Integrator {
   /// at once refuse.
   virtual bool accompany(Companion* /*companion*/) { return false; }
 
-  /// Of the last finished step (the square of a distance); the next stage 0 resets it.
+  /// The largest move of the last finished step (the square of a distance); the next stage 0 resets it.
   LargestMove const& largest_move() const { return move_; }
   void threads(int count) { threads_ = count; }
 

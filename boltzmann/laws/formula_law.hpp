@@ -32,8 +32,9 @@ struct FormulaPart {
 /// Dimensions are checked unless units are reduced.
 struct FormulaLaw {
   enum class Gives { energy, influence };
-  /// How it ends at a cut-off. cut: unchanged. shift: minus its value there; an energy also minus its slope there, so
-  /// that the force ends at zero, too. switched: times a smooth step from 1 to 0 between `switch_from` and the cut-off.
+  /// The end of a law at a cut-off. cut: unchanged. shift: minus its value there; an energy also minus its slope there,
+  /// so that the force ends at zero, too. switched: times a smooth step from 1 to 0 between `switch_from` and the
+  /// cut-off.
   enum class AtCutoff { cut, shift, switched };
 
   Gives gives = Gives::energy;

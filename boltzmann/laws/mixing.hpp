@@ -12,7 +12,7 @@
 
 namespace boltzmann {
 
-/// How the parameters of unlike particles follow from those of like particles.
+/// The rule by which parameters of unlike particles follow from those of like particles.
 enum class Mixing {
   lorentz_berthelot,  ///< r0 = (r1 + r2) / 2, depth = sqrt(d1 d2)
   geometric,          ///< r0 = sqrt(r1 r2), depth = sqrt(d1 d2)

@@ -360,7 +360,7 @@ class DataReader {
     }
   }
 
-  /// Of types, or of spheres by their densities.
+  /// Adds the masses of types, or of spheres by their densities.
   void add_masses() {
     FileColumn mass{"mass", 1, {}};
     FileColumn const *density = frame_.find("density"), *diameter = frame_.find("diameter");

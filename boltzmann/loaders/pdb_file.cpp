@@ -167,7 +167,7 @@ class PdbReader {
     if (!group.empty() && group != "P 1" && group != "P1") group_ = group;
   }
 
-  /// Of the model that has ended.
+  /// The frame of the model that has ended.
   ParticleFrame finished() {
     if (names_.size() < most_numbers) refuse_copies();
     frame_.elements = elements_ == frame_.species.size();

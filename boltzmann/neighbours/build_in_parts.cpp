@@ -210,14 +210,14 @@ struct Neighbourhood::Sorting {
       add_place({cells_along(0, begin, end - 1), across}, places);
     }
   }
-  /// Where the rows of each rank may be.
+  /// The places of the rows of each rank.
   std::vector<std::vector<Place>> places_of_ranks(std::size_t ranks) const {
     std::vector<std::vector<Place>> places(ranks);
     for (auto run = runs.begin(); run + 1 != runs.end(); ++run)
       if (run->first < run[1].first) add_places(run->first, run[1].first, places[run->rank]);
     return places;
   }
-  /// Where these rows may be.
+  /// The places of these rows.
   void add_places(std::size_t begin, std::size_t end, std::vector<Place>& places) const {
     auto const unit_at = [&](std::size_t row) {
       return std::upper_bound(start.begin(), start.end(), row) - start.begin() - 1;

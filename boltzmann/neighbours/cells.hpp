@@ -25,7 +25,7 @@ struct Bounds {
       high[a] = std::max(high[a], other.high[a]);
     }
   }
-  /// Of points at rows + i * stride, i < count; zero if there are none.
+  /// The bounds of points at rows + i * stride, i < count; zero if there are none.
   static Bounds of(int dimension, double const* rows, std::size_t stride, std::size_t count);
 };
 

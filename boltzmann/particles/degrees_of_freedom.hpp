@@ -14,7 +14,7 @@
 
 namespace boltzmann {
 
-/// Whether the class has a mass and a velocity, so that it carries momentum and heat.
+/// True if the class has a mass and a velocity, so that it carries momentum and heat.
 bool carries_momentum(AnyEnsemble const& ensemble);
 
 /// Some particles of an ensemble, by number.
@@ -36,7 +36,7 @@ inline double freedom_of(AnyEnsemble const& ensemble, std::size_t i) {
   if (!mobility.moves(i)) return 0;
   return ensemble.dimension() - (mobility.taken.empty() ? 0 : mobility.taken[i]);
 }
-/// Those of all moving particles of an ensemble.
+/// Degrees of freedom of all moving particles of an ensemble.
 double freedom_of(AnyEnsemble const& ensemble);
 double freedom_of(ChosenParticles const& chosen);
 std::size_t number_moving(AnyEnsemble const& ensemble);

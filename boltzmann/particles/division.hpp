@@ -1,4 +1,4 @@
-// Division: how the particles of a run are divided over the ranks of a team.
+// Division: the decomposition of a run's particles over the ranks of a team.
 #pragma once
 
 #include <boltzmann/core/exact_sum.hpp>
@@ -35,7 +35,8 @@ class Division {
   Division& operator=(Division const&) = delete;
 
   Team& team() const { return team_; }
-  /// Adds an ensemble, in equal parts by particle number until owners are set. All its rows are current on all ranks.
+  /// Adds an ensemble, in equal parts by particle number until owners are set. All its rows must be current on all
+  /// ranks.
   void add(AnyEnsemble& ensemble);
   bool has(AnyEnsemble const& ensemble) const;
   std::vector<AnyEnsemble*> const& ensembles() const { return ensembles_; }
@@ -69,8 +70,9 @@ class Division {
   /// The number of times that owners have changed.
   std::uint64_t changes() const { return changes_; }
 
-  /// Of several neighbour lists one decides on the owners until the division ends: the first that calls, or that of the
-  /// points which others follow. It sends the rows of these ensembles to the ranks that read them.
+  /// The first neighbour lists that call lead() decide on the owners until the division ends; if other particles follow
+  /// the owners of points, it is the lists of these points. The leading lists send the rows of these ensembles to the
+  /// ranks that read them.
   void lead(void const* lists, std::vector<AnyEnsemble const*> brought);
   bool leads(void const* lists) const { return leader_ == lists; }
   bool brings(AnyEnsemble const& ensemble) const;
@@ -173,7 +175,8 @@ class Division {
 /// A plan for repeated exchanges of particles' numbers: one message between two ranks, for all ensembles together.
 class RowExchange {
  public:
-  /// What this rank reads of others: for each ensemble the numbers of particles that it does not own. For all ranks.
+  /// The rows that this rank reads from others: for each ensemble the numbers of particles that it does not own. For
+  /// all ranks.
   struct Needed {
     AnyEnsemble* ensemble;
     std::vector<std::uint32_t> numbers;

@@ -20,7 +20,7 @@
 
 namespace boltzmann {
 
-/// How an ensemble is drawn.
+/// The appearance of an ensemble in drawings.
 struct Appearance {
   std::string colour;   ///< a name that colour_named() accepts; empty: the next of the palette
   double diameter = 0;  ///< in the simulation's length unit; 0: chosen by the drawing (on a lattice: its spacing)
@@ -56,8 +56,8 @@ class AnyEnsemble {
   std::size_t stride() const { return stride_; }    ///< doubles from row to row, a multiple of 4
   std::size_t doubles() const { return doubles_; }  ///< doubles of the class in a row (the rest is padding)
 
-  /// What the schemes have added up for particle i: `influence_size()` doubles (a force for Newton, a velocity for
-  /// Tracer).
+  /// The sum of influences on particle i from all schemes: `influence_size()` doubles (a force for Newton, a velocity
+  /// for Tracer).
   double* influence(std::size_t i) { return influence_.data() + i * influence_size_; }
   double const* influence(std::size_t i) const { return influence_.data() + i * influence_size_; }
   std::size_t influence_size() const { return influence_size_; }
@@ -67,12 +67,12 @@ class AnyEnsemble {
 
   /// The fields that have rates of their own.
   std::vector<DrivenField> const& driven() const { return driven_; }
-  /// Whether a field is a vector: in 1D a vector has one component, too.
+  /// True if a field is a vector: in 1D a vector has one component, too.
   bool is_vector(Field const& field) const;
   /// The index of a field among them; -1: it has no rate.
   int number_driven(Field const& field) const;
-  /// What the schemes have added up for driven field k: its rate, dimension() numbers a particle; a scalar uses the
-  /// first. The rates are followed by the diffusion coefficients of the fields that diffuse, in the same form.
+  /// The sum of rates of driven field k from all schemes, dimension() numbers a particle; a scalar uses the first. The
+  /// rates are followed by the diffusion coefficients of the fields that diffuse, in the same form.
   double* rate(std::size_t k) { return influence_.data() + (influence_size_ + k * rate_stride()) * size_; }
   double const* rate(std::size_t k) const { return influence_.data() + (influence_size_ + k * rate_stride()) * size_; }
   std::size_t rate_stride() const { return static_cast<std::size_t>(dimension_); }

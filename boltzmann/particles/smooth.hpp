@@ -6,7 +6,7 @@
 
 namespace boltzmann {
 
-/// What the other smooth particles do to one: a force, and the rates of what it carries.
+/// The influence of other smooth particles on one: a force, and the rates of its fields.
 template <int D, class Real>
 struct SmoothInfluence {
   Vector<D, Real> force;

@@ -71,7 +71,8 @@ struct Viscous : Inviscid<D, Real> {
 
 namespace detail {
 
-/// What a Diffusive vortex adds to an Inviscid one: in 2D a circulation that changes; in 3D vorticity already changes.
+/// The difference between a Diffusive and an Inviscid vortex: in 2D its circulation changes; in 3D the vorticity
+/// already does.
 template <int D, class Real>
 struct Exchanging : Inviscid<D, Real> {};
 

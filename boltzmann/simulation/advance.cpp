@@ -64,7 +64,7 @@ void Simulation::calculate(double time, std::int64_t step) {
   influences_.calculated();
 }
 
-/// With several schemes, in their order. In a divided run particles migrate before.
+/// Calls several schemes in their order. In a divided run particles migrate before.
 void Simulation::add_all_influences(double time, std::int64_t step) {
   if (is_divided())
     for (auto* scheme : with_lists_)

@@ -136,9 +136,9 @@ struct StretchMeasures {
   double volume = 0;
   double pressure = 0;  ///< (2 kinetic + virial) / (axes times volume)
 };
-/// Of the current state. With rigid bonds the pressure is that of molecules: the motion of centres of mass, and forces
-/// on these (M. P. Allen and D. J. Tildesley, Computer Simulation of Liquids, 2nd ed. 2017, section 2.4); influences
-/// must then be up to date.
+/// Measures the current state. With rigid bonds the pressure is that of molecules: the motion of centres of mass, and
+/// forces on these (M. P. Allen and D. J. Tildesley, Computer Simulation of Liquids, 2nd ed. 2017, section 2.4);
+/// influences must then be up to date.
 StretchMeasures measure_stretch(StretchedSystem const& system, std::vector<int> const& axes);
 
 }  // namespace boltzmann

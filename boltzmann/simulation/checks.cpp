@@ -19,7 +19,7 @@ namespace boltzmann {
 
 void Simulation::check() { check(false); }
 
-/// With particles that were `added` during the run.
+/// `added`: particles have been added during the run.
 void Simulation::check(bool added) {
   if (checked_) return;
   make_ready();

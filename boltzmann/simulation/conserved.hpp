@@ -31,7 +31,7 @@ struct Conserved {
   bool isolated = true;  ///< no walls, no heat bath, no external or one-sided forces: momentum is conserved
 };
 
-/// Of the current state. Calculates the energies of all schemes once.
+/// The totals of the current state. Calculates the energies of all schemes once.
 Conserved conserved(Simulation const& simulation);
 
 /// PhysicsFailure, naming a particle if possible, unless these energies are finite: those of measure(), or those of

@@ -27,7 +27,7 @@ int remesh_weights(RemeshKernel kernel, double fraction, std::array<double, 6>& 
 
 /// Options of remeshing.
 struct Remeshing {
-  /// Of the nodes, which are at low + (n + 1/2) spacing of the box, like those of fill_load.
+  /// Distance of nodes, which are at low + (n + 1/2) spacing of the box, like those of fill_load.
   double spacing = 0;
   RemeshKernel kernel = RemeshKernel::m4;
   double core = 0;         ///< of the new vortices; 0: one and a half of the spacing

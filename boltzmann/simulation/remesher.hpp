@@ -15,7 +15,7 @@ class Remesher final : public Adaptation {
 
   void change() override;
   std::string report(UnitSystem const& units) const override;
-  /// Of weak nodes that were removed.
+  /// The vorticity of weak nodes that were removed.
   FlowImpulse taken() const override;
   std::vector<double> state() const override;
   void restore(std::span<double const> state) override;

@@ -20,9 +20,9 @@ struct StartForces {
                           ///< the particle, its nearest neighbour, and the cure
 };
 
-/// Of the current influences. The advised step also suits the `collision_step`. Classes without mass and velocity are
-/// ignored. `added`: in the middle of a run, after particles have been added. `otherwise`: another cure than a shorter
-/// step, if [minimise] is none.
+/// Checks the current influences. The advised step also suits the `collision_step`. Classes without mass and velocity
+/// are ignored. `added`: in the middle of a run, after particles have been added. `otherwise`: another cure than a
+/// shorter step, if [minimise] is none.
 StartForces forces_at_start(std::vector<Moved> const& moved, std::vector<AnyEnsemble*> const& all, Box const& box,
                             double step_size, double collision_step, bool added, std::string const& otherwise);
 
