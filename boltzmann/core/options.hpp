@@ -87,7 +87,7 @@ struct OptionKind {
     particles,  ///< numbers of one ensemble, or words that choose them
     tables,
     group,  ///< a table in braces; words: an example of one
-    said    ///< `word` describes what is allowed
+    said    ///< `words` describes what is allowed
   };
   Form form = Form::text;
   /// The dimension of numbers; nothing: that of the displayed quantity, which depends on other options.

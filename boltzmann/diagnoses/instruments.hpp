@@ -1,4 +1,4 @@
-// Instruments: the makers in the catalogue's table. Private to this room.
+// Instruments: the makers in the catalogue's table. Private to this module.
 #pragma once
 
 #include <boltzmann/diagnoses/chosen.hpp>

@@ -1,4 +1,4 @@
-// SystemDiagnosis: base of diagnoses of the whole system, or of each named ensemble. Private to this room.
+// SystemDiagnosis: base of diagnoses of the whole system, or of each named ensemble. Private to this module.
 #pragma once
 
 #include <boltzmann/diagnoses/instruments.hpp>

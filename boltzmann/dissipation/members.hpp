@@ -1,4 +1,4 @@
-// The data of pair dissipation on its ensembles and the pairs between them. Private to this room.
+// The data of pair dissipation on its ensembles and the pairs between them. Private to this module.
 #pragma once
 
 #include <boltzmann/dissipation/dissipation_kernels.hpp>

@@ -1,4 +1,4 @@
-// The order of pairs in Shardlow's splitting. Private to this room.
+// The order of pairs in Shardlow's splitting. Private to this module.
 #pragma once
 
 #include <boltzmann/core/exact_sum.hpp>

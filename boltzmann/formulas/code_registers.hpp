@@ -1,4 +1,4 @@
-// The places of numbers in machine code while it is generated: registers, columns, scalars. Private to this room.
+// The places of numbers in machine code while it is generated: registers, columns, scalars. Private to this module.
 #pragma once
 
 #include <boltzmann/formulas/formula_program.hpp>

@@ -1,4 +1,4 @@
-// The machine code of the steps of a program. Private to this room.
+// The machine code of the steps of a program. Private to this module.
 #pragma once
 
 #include <boltzmann/formulas/code_registers.hpp>

@@ -1,4 +1,4 @@
-// The supported atom styles of LAMMPS, and code that its two formats share. Private to this room.
+// The supported atom styles of LAMMPS, and code that its two formats share. Private to this module.
 #pragma once
 
 #include <boltzmann/loaders/particle_frame.hpp>

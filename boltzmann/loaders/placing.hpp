@@ -1,4 +1,4 @@
-// Placing: functions of loaders that put particles into a box. Private to this room.
+// Placing: functions of loaders that put particles into a box. Private to this module.
 #pragma once
 
 #include <boltzmann/boundaries/box.hpp>

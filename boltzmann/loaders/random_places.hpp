@@ -1,4 +1,4 @@
-// Random places: random sequential addition, up to saturation. Private to this room.
+// Random places: random sequential addition, up to saturation. Private to this module.
 #pragma once
 
 #include <boltzmann/boundaries/box.hpp>

@@ -1,4 +1,4 @@
-// Text lines: reads a particle file line by line, and splits words. Private to this room.
+// Text lines: reads a particle file line by line, and splits words. Private to this module.
 #pragma once
 
 #include <boltzmann/core/error.hpp>

@@ -1,4 +1,4 @@
-// Descent: the steps of FIRE, for the particles of several ensembles. Private to this room.
+// Descent: the steps of FIRE, for the particles of several ensembles. Private to this module.
 #pragma once
 
 #include <boltzmann/boundaries/box.hpp>

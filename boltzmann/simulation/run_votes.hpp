@@ -1,4 +1,4 @@
-// Run votes: the coordination of the ranks of a team in one run(). Private to this room.
+// Run votes: the coordination of the ranks of a team in one run(). Private to this module.
 #pragma once
 
 #include <boltzmann/core/clock.hpp>

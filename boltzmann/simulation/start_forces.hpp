@@ -1,5 +1,5 @@
 // Start forces: checks whether the initial forces of a run are too large for its step, and names the particle. Private
-// to this room.
+// to this module.
 #pragma once
 
 #include <boltzmann/boundaries/box.hpp>
