@@ -208,7 +208,7 @@ void MemoryTeam::combine(std::int64_t* to, std::size_t begin, std::size_t end) c
     over([](std::int64_t a, std::int64_t b) { return std::max(a, b); });
 }
 
-// The index of the messages to each rank, followed by the messages.
+// Memory for the index of the messages to each rank, which is written here, and for the messages after it.
 char* MemoryTeam::room_for_ranks(std::vector<Place> const& places) {
   std::size_t const index = places.size() * sizeof(Place);
   std::uint64_t end = index;

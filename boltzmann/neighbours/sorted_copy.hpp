@@ -136,7 +136,7 @@ class SortedCopy {
   void only(std::vector<Stretch> const& own, std::vector<Stretch> const& others, std::vector<char> const& read);
   /// Ends the restriction.
   void everything();
-  /// The ranges that are refreshed: own rows, others, and images; each of the latter is offset by `sentinel() + 1`.
+  /// The ranges that are refreshed: own rows, others, and images. Image n is row `sentinel() + 1 + n`.
   std::vector<Stretch> const& followed() const { return pieces_; }
   std::vector<Stretch> const& others() const { return others_; }
   std::vector<Stretch> const& images() const { return images_of_; }
