@@ -30,8 +30,7 @@ struct Disk {
   int error = 0;  ///< errno of the first failed write; later writes are discarded
   std::uint64_t size = 0;
   bool read_only = false;  ///< `size` is updated from the file, because another process may be writing it
-  std::array<unsigned char, 48>
-      superblock{};  ///< contents in the file, for version 3 (files for ordered writes)
+  std::array<unsigned char, 48> superblock{};  ///< contents in the file, for version 3 (files for ordered writes)
   bool has_superblock = false;
   bool holding = false;  ///< writes are queued in `held`, not written
   std::uint64_t size_in_file = 0;

@@ -35,7 +35,7 @@ struct TrajectoryOptions {
   std::string author = "unknown";
   std::string version;                              ///< of the program
   std::function<std::string(Dimension)> unit_name;  ///< empty: units are not written
-  std::function<double(Dimension)> factor;   ///< factor that converts numbers to that unit; empty: no conversion
+  std::function<double(Dimension)> factor;          ///< factor that converts numbers to that unit; empty: no conversion
   std::vector<std::string> constant_fields;  ///< written once (for example mass, charge); never position or velocity
   bool sizes_change = false;                 ///< ensembles may grow far beyond their size in the first frame
   std::vector<std::pair<std::string, std::string>> elements = {};  ///< by ensemble: "atoms", "Cu"

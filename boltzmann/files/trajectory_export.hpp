@@ -46,8 +46,7 @@ struct ExportOptions {
   std::vector<std::string> ensembles = {};  ///< empty: all
   std::vector<std::string> fields = {};     ///< besides the position; empty: all (for columns: all that the ensembles
                                             ///< share)
-  std::vector<std::pair<std::string, std::string>> species =
-      {};  ///< ensemble, and the name for its particles ("Cu")
+  std::vector<std::pair<std::string, std::string>> species = {};  ///< ensemble, and the name for its particles ("Cu")
   /// A unit style (core/unit_style.hpp): "metal" (angstrom, ps, amu, eV, K, elementary charge, bar), "real", "si", ...;
   /// or "run" (the units of trajectory.h5). Empty: the fixed units of the format. For .xyz, .dump and .data: metal if
   /// the run has lengths in angstrom, nm, pm or fm, and si for others. For all other formats, and for runs without

@@ -41,10 +41,10 @@ struct Picture {
                        ///< profile: names of profile_quantities(), separated by commas; empty: "density".
                        ///< wave-spectrum: which of those recorded, by its quantity; empty: the first.
                        ///< curves: names of tables, "radial-distribution", separated by commas; empty: the first
-  std::string colour = {};  ///< a field, "speed", "kinetic-energy", "potential-energy"; empty: by ensemble
-  std::string size = {};  ///< the same, for the diameter: the largest value has the ensemble's diameter; empty: all
-                          ///< have it
-  std::string vectors = {};          ///< cartesian: arrows of one of vector_names() at up to 2000 particles
+  std::string colour = {};   ///< a field, "speed", "kinetic-energy", "potential-energy"; empty: by ensemble
+  std::string size = {};     ///< the same, for the diameter: the largest value has the ensemble's diameter; empty: all
+                             ///< have it
+  std::string vectors = {};  ///< cartesian: arrows of one of vector_names() at up to 2000 particles
   std::string file = "picture.png";  ///< in the run's folder; .png, .svg or .pdf
   bool trace = false;                ///< also draw the tracks through all frames of trajectory.h5 (cartesian,
                                      ///< phase-space)

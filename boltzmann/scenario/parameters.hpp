@@ -19,8 +19,8 @@ struct ScenarioParameter {
   /// "quantity", "integer", "number", "word", "boolean", "text" or "vector" (an array of these); for an absent key also
   /// "any", with the allowed values in `doc`.
   std::string kind;
-  std::string value;  ///< as TOML, as written; for an absent key its default, or empty if `otherwise` describes it
-  std::string unit;   ///< display unit of the base; empty: a pure number, or not a number
+  std::string value;      ///< as TOML, as written; for an absent key its default, or empty if `otherwise` describes it
+  std::string unit;       ///< display unit of the base; empty: a pure number, or not a number
   std::string base_unit;  ///< the unit of a plain number: "amu", "3.273 fs"; empty: a pure number, or not a number
   std::vector<std::string> units;  ///< possible units, that of the value first
   /// Limits of a number, in `unit`; of a vector, those of its elements. Some limits are unknown without the other

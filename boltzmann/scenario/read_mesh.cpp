@@ -152,7 +152,7 @@ bool find_mesh_fields(Reading& reading, Place const& place, std::string_view wha
     if (!ensemble.particles) return false;
   try {
     reading.mesh.fields = mesh_fields_of(schemes);
-  // an error of the user's input or, if particles are outside, of the physics
+    // an error of the user's input or, if particles are outside, of the physics
   } catch (std::runtime_error const& failure) {
     reading.mistake(place_of(failure.what(), reading), failure.what());
     return reading.mesh.usable = false;

@@ -95,8 +95,8 @@ struct ReadRun : RunOptions {
 struct ReadMesh {
   std::vector<double> bonded_factors = {};
   Place bonded_place = {};
-  bool usable = true;      ///< false: there is an invalid [mesh]; skip checks that need a mesh
-  Place background_place;  ///< or that of the table
+  bool usable = true;                    ///< false: there is an invalid [mesh]; skip checks that need a mesh
+  Place background_place;                ///< or that of the table
   std::vector<MeshField const*> fields;  ///< computed on demand
 };
 

@@ -72,12 +72,12 @@ struct ScenarioSimulation {
   OutputPlan output;
   std::vector<PicturePlan> views;  ///< drawings for the window, by name
   std::optional<SweepPlan> sweep;  ///< for a scenario that runs for several values or seeds
-  std::string resolved;  ///< the scenario as TOML with all overrides applied, stored beside the results
+  std::string resolved;            ///< the scenario as TOML with all overrides applied, stored beside the results
   std::vector<ScenarioParameter> parameters;  ///< the values of the text with their allowed ranges
   std::vector<ScenarioParameter> absent;      ///< further keys that its tables accept; only for a page
   std::vector<DerivedClassText> classes;      ///< derived classes
   std::vector<TypedLaw> typed_laws;           ///< of pairs
-  std::vector<std::string> notes;  ///< "note: ..." or "warning: ...": unused parts of files, empty groups
+  std::vector<std::string> notes;             ///< "note: ..." or "warning: ...": unused parts of files, empty groups
   std::vector<std::pair<std::string, std::string>> elements;  ///< by ensemble: "atoms", "Cu"
 
   Box const& box() const { return schemes.front()->box(); }

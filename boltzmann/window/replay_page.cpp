@@ -125,7 +125,7 @@ struct Encoded {
   double bytes() const { return static_cast<double>(text.size() + 3); }
   // for each view with particles: their number, and bytes per particle
   std::vector<std::size_t> particles, particle_bytes;
-  std::uint32_t stride = 1;                            // one of this number of particles is included
+  std::uint32_t stride = 1;  // one of this number of particles is included
 };
 
 /// The size of a frame in the page.

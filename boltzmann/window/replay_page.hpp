@@ -23,8 +23,7 @@ struct ReplayPageOptions {
 struct ReplayPage {
   std::string html;
   std::size_t frames = 0, stored_frames = 0;  ///< in the page, and in the trajectory
-  std::string message =
-      {};  ///< the page's note on omitted frames, particles and rows; empty: none
+  std::string message = {};                   ///< the page's note on omitted frames, particles and rows; empty: none
 };
 
 /// The page of a replay, which is then at the last selected frame. Throws Error (one line) for an unknown view or one

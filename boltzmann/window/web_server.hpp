@@ -62,8 +62,8 @@ struct WebLimits {
   std::size_t message_bytes = 262'144;                 ///< of a message from a browser
   std::size_t waiting_bytes = std::size_t{256} << 20;  ///< of messages queued for one browser; above, it is closed
   std::size_t waiting_messages = 256;                  ///< the same
-  double handshake_seconds = 5;  ///< a connection without a request after this time is closed
-  double idle_seconds = 60;      ///< a browser that answers no ping for this time is closed
+  double handshake_seconds = 5;                        ///< a connection without a request after this time is closed
+  double idle_seconds = 60;                            ///< a browser that answers no ping for this time is closed
 };
 
 class WebServer {

@@ -39,9 +39,8 @@ struct MeshScheme::Work {
   SolvingRanks ranks;                          ///< of a divided run, at the last solution
   std::pair<std::size_t, std::size_t> planes;  ///< planes of nodes whose density this rank has;
   Team* others = nullptr;                      ///< the other ranks, if there are any
-  std::vector<std::int64_t>
-      unfolded;                ///< counts of the last deposit, if observers see another density than the solver
-  bool density_shown = false;  ///< true if `density` is that for observers
+  std::vector<std::int64_t> unfolded;  ///< counts of the last deposit, if observers see another density than the solver
+  bool density_shown = false;          ///< true if `density` is that for observers
 
   Work(Ghosts ghosts, MeshGrid const& grid, std::array<FieldEnds, 3> const& ends, PoissonForm form, int threads,
        GreensFunction const& green);

@@ -165,7 +165,7 @@ class MultipoleScheme final : public Scheme, public RestoredInfluences {
   double measured_ = 0;
   int order_ = 0;  // 0: not chosen yet
   std::size_t until_check_ = 0;
-  std::size_t repeated_ = 0;               // calculations that a resumed run repeats
+  std::size_t repeated_ = 0;  // calculations that a resumed run repeats
   // checksum of the particles of the last influences, if that calculation counted
   std::uint64_t counted_ = 0;
   std::optional<MultipoleAccuracy> last_;  // of the last influences

@@ -179,8 +179,8 @@ class PairScheme final : public Scheme, private VelocityInfluences {
   struct LawTraits {
     double length_scale = no_cutoff;
     bool velocity_dependent = false;
-    bool one_way = false;  ///< targets do not influence the sources
-    bool uniform = false;  ///< an external law that acts equally on equal particles at all places
+    bool one_way = false;                    ///< targets do not influence the sources
+    bool uniform = false;                    ///< an external law that acts equally on equal particles at all places
     std::optional<VortexLaw> vortices = {};  ///< the law of Biot and Savart, if it is one
     int changes = -1;  ///< the driven field of the target whose rate it gives; -1: it moves particles
 
