@@ -13,7 +13,7 @@ struct EmbeddedPoint : Particle<D, Real> {
   Real slope;  ///< dF/d(density)
 };
 
-/// One of several elements.
+/// An atom of an alloy, with its element.
 template <int D, class Real = double>
 struct AlloyPoint : Particle<D, Real> {
   static constexpr char const* class_name = "atom of an alloy";

@@ -1,5 +1,5 @@
 // The passes over pairs for embedded atoms: densities, then forces. Each is a law: the contribution of q to p. Both
-// look ahead (over_near.hpp): they compute the address of a pair's splines first.
+// compute the addresses of a pair's splines ahead of their use (over_near.hpp).
 #pragma once
 
 #include <boltzmann/laws/embedded_tables.hpp>

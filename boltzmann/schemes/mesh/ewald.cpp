@@ -145,7 +145,7 @@ void add_far(Totals<D>& total, std::span<Vector<D> const> x, std::span<double co
   }
   std::vector<Complex> term(n);
   std::array<int, 3> m{};
-  // Of k and -k only one: the last component that is not zero is positive.
+  // Only one of k and -k: the last component that is not zero is positive.
   for (m[2] = 0; m[2] <= most[2]; ++m[2])
     for (m[1] = m[2] > 0 ? -most[1] : 0; m[1] <= most[1]; ++m[1])
       for (m[0] = m[2] > 0 || m[1] > 0 ? -most[0] : 1; m[0] <= most[0]; ++m[0]) {

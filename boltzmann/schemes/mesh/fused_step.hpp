@@ -42,7 +42,7 @@ template <class Real, int W, std::size_t... Lane>
   odd = __builtin_shufflevector(low.native, high.native, (2 * Lane + 1)...);
 }
 
-/// V packs, number k of particle i in lane i of pack k, from and to W groups of V numbers side by side.
+/// Transposes V packs (number k of particle i is in lane i of pack k) to and from W groups of V adjacent numbers.
 template <int V, class Real, int W>
 [[gnu::always_inline]] inline void to_groups(Pack<Real, W>* packs, Real* memory) {
   constexpr auto lanes = std::make_index_sequence<static_cast<std::size_t>(W)>{};
@@ -332,7 +332,7 @@ class FusedStep {
           break;
         case StepBoundary::reflects: {
           Native const below = x<0, above = x> end;
-          x = below ? -x : above ? end - (x - end) : x;  // 2 end may not fit
+          x = below ? -x : above ? end - (x - end) : x;  // the integer 2 end may overflow
           v[a] = select(Mask<Real, W>{below | above}, -v[a], v[a]);
           break;
         }
@@ -387,7 +387,7 @@ class FusedStep {
       }
     }
   }
-  /// Integers of at least 0 and below 2^51.
+  /// Integers in [0, 2^51).
   [[gnu::always_inline]] static SideBySide<double, W> exact(typename Whole::Native x) {
     if constexpr (std::is_same_v<Real, double>)
       return Whole::number(x).native;

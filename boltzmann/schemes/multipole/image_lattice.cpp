@@ -1,11 +1,12 @@
-// Sums over lattices (Nijboer and de Wette, Physica 23, 309 (1957), from all harmonics to those of far images alone).
+// Sums over lattices (Nijboer and de Wette, Physica 23, 309 (1957)), with all harmonics but far images only.
 //
 // With Q(s, x) the regularised incomplete gamma function, P = 1 - Q, x = alpha^2 R^2 and s = n + D/2 - 1,
 //   sum over far R of T_n(R) = sum far T_n Q(s, x) - sum near, R != 0 of T_n P(s, x) + (1/V) sum k != 0 of t_n(k)
 // where t_n is the Fourier transform of T_n P, which is smooth:
 //   3D  4 pi (-1)^(n/2) / (2n - 1)!! Y_n(k) / k^2 exp(-k^2 / 4 alpha^2),
 //   2D  4 pi (-1)^(n/2) / (n - 1)!  (k/2)^n / k^2 exp(-k^2 / 4 alpha^2),   k = k_x - i k_y.
-// Without k = 0 nothing is polarised from outside ("tin foil"), and a uniform background neutralises the box.
+// The term k = 0 is omitted, which means conducting boundary conditions at infinity. A uniform background neutralises
+// the box.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/pack.hpp>
 #include <boltzmann/schemes/mesh/ewald.hpp>
@@ -311,7 +312,7 @@ void FarImages::add_solid(ExpansionView const& tables, double const* moments, do
     }
 }
 
-/// Of ln(R + x - y): -(1/j) sum of R^-j times (x - y)^j for even j; sum q y^k = -k a_k.
+/// Expands ln(R + x - y): -(1/j) sum of R^-j times (x - y)^j for even j; sum q y^k = -k a_k.
 void FarImages::add_plane(ExpansionView const& tables, double const* moments, double radius, double* local) const {
   int const p = tables.order;
   std::size_t const width = static_cast<std::size_t>(4 * order_) + 1;

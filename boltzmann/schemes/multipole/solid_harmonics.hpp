@@ -4,11 +4,11 @@
 //   Y_n^m = r^n P_n^m(cos theta) exp(i m phi) / (n + m)!      1/|x - y| = sum conj(Y_n^m(y)) T_n^m(x),   |y| < |x|
 //   T_n^m = (n - m)! P_n^m(cos theta) exp(i m phi) / r^(n+1)
 //
-// Moments are M_n^m = sum q Y_n^m(y), local expansions F_n^m give the potential sum conj(Y_n^m(x)) F_n^m. Both are
+// Moments are M_n^m = sum q Y_n^m(y). Local expansions F_n^m give the potential sum conj(Y_n^m(x)) F_n^m. Both are
 // stored times sqrt((n - m)! (n + m)!) or its inverse, which makes rotations orthogonal, and over powers of the radius
-// of their node, so that all numbers are of the size of the strengths. To translate them they are turned until the
-// shift points along z, where a translation mixes orders n and leaves m alone: O(p^3) in all. Turns about z multiply by
-// cos and sin; the others are turns about z between two exchanges of x and z, whose matrices are constant and sparse.
+// of their node, so that all numbers have the magnitude of the strengths. To translate them, they are rotated until the
+// shift points along z, where a translation mixes orders n but not m: O(p^3) in all. Rotations about z multiply by cos
+// and sin. The others are rotations about z between two exchanges of x and z, whose matrices are constant and sparse.
 #pragma once
 
 #include <boltzmann/core/pack.hpp>

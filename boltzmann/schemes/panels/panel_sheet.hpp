@@ -69,7 +69,7 @@ class PanelSheet {
   bool deep_inside(Vector<2> const& place, double depth) const {
     return inside(place) && nearest(place).distance < -depth;
   }
-  /// Of all panels; none if there are no bodies.
+  /// The nearest of all panels; none if there are no bodies.
   NearestPanel nearest(Vector<2> const& place) const;
   std::size_t bytes() const;
 

@@ -124,10 +124,10 @@ enum class RateTerms { pressure, viscous, all };
 
 /// Eq 13, 14 and the continuity equation, with the grad-h factors of variable ranges inside push, stress and heat.
 /// Artificial viscosity: Pi = (-alpha c mu + beta mu^2) / rho with means of both particles, mu = h v.r / (r^2 +
-/// h^2/100) of those that approach, h the smoothing length (Monaghan 1992).
+/// h^2/100) for approaching pairs, h the smoothing length (Monaghan 1992).
 ///
-/// With `volumes` neighbours count by these: d rho_i / dt = rho_i Sum (m_j / rho_j) (v_i - v_j).grad w, and P_i /
-/// (rho_i rho_j) in place of P_i / rho_i^2 in Eq 13, 14, which conserves energy with it.
+/// With `volumes` neighbours are weighted by volume: d rho_i / dt = rho_i Sum (m_j / rho_j) (v_i - v_j).grad w, and
+/// P_i / (rho_i rho_j) in place of P_i / rho_i^2 in Eq 13, 14, which conserves energy with it.
 template <class Shape, bool variable, RateTerms terms, bool volumes = false>
 struct RatePass {
   PassParameters parameters;

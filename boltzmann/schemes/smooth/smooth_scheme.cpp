@@ -70,8 +70,8 @@ std::vector<ImageComponent> image_components(int dimension, std::size_t blocks) 
   });
 }
 
-/// Which range is too long, or empty. Between two walls of an axis a particle may have images behind one of them, not
-/// behind both.
+/// A text on a range that is too long, or empty. Between two walls of an axis a particle may have images behind one of
+/// them, not behind both.
 std::string too_long(Box const& box, double range, double reach) {
   for (int a = 0; a < box.dimension(); ++a) {
     if (box.boundary(a) != Boundary::open && range > box.length(a))

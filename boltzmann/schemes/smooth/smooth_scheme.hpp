@@ -55,8 +55,7 @@ class SmoothScheme final : public Scheme {
   explicit SmoothScheme(Box box, WeightShape shape = WeightShape::lucy);
   ~SmoothScheme() override;
 
-  /// Adds an ensemble of a class made from Smooth, and says what it is made of. Particles of all ensembles act on
-  /// each other.
+  /// Adds an ensemble of a class derived from Smooth, with its material. Particles of all ensembles interact.
   template <class P, class M>
   void material(Ensemble<P>& ensemble, M const& material) {
     static_assert(std::is_base_of_v<Smooth<P::dimension>, P>, "a smooth particle is of a class derived from Smooth");

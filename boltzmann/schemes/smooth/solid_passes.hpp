@@ -5,11 +5,11 @@
 //
 //   G_i = Sum_j s_ij r (v_j - v_i),   B_i = Sum_j s_ij r r,   the corrected gradient is L_i . G_i with L = 1 / B
 //
-// (Bonet and Lok, Comput. Methods Appl. Mech. Eng. 180, 97, 1999), and forces are made of L . P in place of P, so that
-// they do the work P : (L . G). L is limited where B is nearly singular, in splinters.
+// (Bonet and Lok, Comput. Methods Appl. Mech. Eng. 180, 97, 1999). Forces use L . P in place of P, so that they do the
+// work P : (L . G). L is bounded where B is nearly singular, in splinters.
 //
-// Hourglass control. Neither G nor the forces see motion that alternates from one particle to the next, so that rows of
-// a solid would slide past each other freely. The control is that of Flanagan and Belytschko (Int. J. Numer. Methods
+// Hourglass control. G and the forces vanish for motion that alternates from one particle to the next, so rows of a
+// solid would slide past each other freely. The control is that of Flanagan and Belytschko (Int. J. Numer. Methods
 // Eng. 17, 679, 1981) in its elastic form, with the neighbourhood of a particle in place of a finite element;
 // Ganzenmueller (Comput. Methods Appl. Mech. Eng. 286, 87, 2015) measures the same departure from linear motion, pair
 // by pair. With the spacing d = V^(1/D):
@@ -18,8 +18,8 @@
 //   dh_i/dt = Sum_j c_ij (v_i - v_j) + W_i . h_i - relaxation      h: the hourglass strain
 //   F_i = -Sum_j (c_ij V_i G_i h_i - c_ji V_j G_j h_j)             from the energy V G h^2 / 2, G the shear modulus
 //
-// A linear velocity field strains nothing, since Sum c r = 0; for the same reason these forces have no torque. All
-// forces conserve momentum, and their work goes into the specific energy, so that total energy is conserved.
+// A linear velocity field causes no hourglass strain, because Sum c r = 0. For the same reason these forces have no
+// torque. All forces conserve momentum. Their work is added to the specific energy, so that total energy is conserved.
 #pragma once
 
 #include <boltzmann/schemes/smooth/passes.hpp>

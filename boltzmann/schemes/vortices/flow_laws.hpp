@@ -8,12 +8,12 @@
 
 namespace boltzmann {
 
-/// What a core adds to the laws of Biot and Savart, as its own comments say there. Of elements with different cores
-/// `core2` is what they have together.
+/// Functions of a core besides the velocity laws of Biot and Savart, where cores are documented. For elements with
+/// different cores, `core2` is their combined value.
 ///   density_2d: the vorticity of a unit circulation; stream_2d: G, with the velocity of a vortex k x grad G and
 ///   -G'= q / (2 pi r), so that G = -ln r / (2 pi) outside of the core.
-///   energy_3d: of -grad^2 grad^2 B = vorticity and G = -grad^2 B, G + B'/r and (B'' - B'/r) / r^2: what is left of the
-///   vector potential where all that has a divergence is taken out (G. S. Winckelmans and A. Leonard 1993).
+///   energy_3d: of -grad^2 grad^2 B = vorticity and G = -grad^2 B, G + B'/r and (B'' - B'/r) / r^2, the
+///   terms of the vector potential without its divergent part (G. S. Winckelmans and A. Leonard 1993).
 template <class Core>
 struct CoreSums;
 

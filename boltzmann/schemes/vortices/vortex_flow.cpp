@@ -207,7 +207,7 @@ std::unique_ptr<AnyEnsemble> VortexFlow::with_images() const {
     for (int a = 0; a < dimension_; ++a)
       if (double& x = rows[first + static_cast<std::size_t>(a)]; box_.periodic(a))
         x -= box_.length(a) * std::floor((x - box_.low(a)) / box_.length(a));
-  // Repeat once more on both sides of a repeating axis.
+  // Add one more period on both sides of a repeating axis.
   for (int a = 0; a < dimension_; ++a) {
     if (!repeats_along(box_, a)) continue;
     double const period = box_.length(a) * (box_.periodic(a) ? 1 : 2);
