@@ -1,4 +1,4 @@
-// Looks up units by name in styles and formats, and computes conversion factors.
+// Resolves units by name in styles and formats, and computes conversion factors.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/quantity_text.hpp>
 #include <boltzmann/files/unit_change.hpp>
