@@ -48,8 +48,8 @@ class Instruments {
   /// Updates the diagnoses that need every step.
   void follow() const;
 
-  /// What they have accumulated so far, each with the name of its file without ".csv", in the units that the file
-  /// names.
+  /// Tables that they have accumulated so far, each with the name of its file without ".csv", in the units that the
+  /// file names.
   std::vector<std::pair<std::string, CsvTable>> gathered() const;
 
  private:

@@ -86,7 +86,7 @@ struct Recording::State {
   /// The ensembles, also before Simulation::check() has collected them.
   std::vector<AnyEnsemble*> ensembles() const { return supervised_by(simulation.schemes()); }
 
-  /// What diagnoses are made from.
+  /// The inputs for the construction of a diagnosis.
   DiagnosisParameters parameters(std::string_view kind) const {
     DiagnosisParameters parameters;
     parameters.units = units;

@@ -1,4 +1,4 @@
-// Chooses units that MDAnalysis knows.
+// Chooses units that MDAnalysis supports.
 #include <boltzmann/recording/trajectory_units.hpp>
 
 #include <boltzmann/core/quantity_text.hpp>

@@ -5,8 +5,8 @@
 
 namespace boltzmann {
 
-/// The units of results. For runs of atoms, lengths, times and velocities are in units that MDAnalysis knows: it
-/// misreads angstrom/fs and does not know bohr.
+/// The units of results. For runs of atoms, lengths, times and velocities are in units that MDAnalysis supports: it
+/// misreads angstrom/fs and has no bohr.
 UnitSystem::Display trajectory_unit(UnitSystem const& units, Dimension dimension);
 
 }  // namespace boltzmann
