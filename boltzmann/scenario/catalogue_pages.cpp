@@ -229,7 +229,7 @@ std::string example_of(Parameter const& parameter, int dimension) {
   return value;
 }
 
-/// The law as a table for a scenario, with examples of its parameters.
+/// The law as a table for a scenario, with example values of its parameters.
 void show_typed(Page& page, LawInfo const& law, int dimension, std::string_view text) {
   page.print("    [[influences]]\n    {} = \"{}\"\n", law.has_energy ? "energy" : "influence", text);
   std::vector<std::string> parameters, vectors;

@@ -17,7 +17,7 @@ namespace boltzmann {
 /// The documentation of a key that a table may have.
 struct ToldKey {
   Option option;
-  std::string value;                   ///< its default as TOML; empty: the option says it in words
+  std::string value;                   ///< its default as TOML; empty: the option describes it in words
   std::optional<Dimension> dimension;  ///< of its numbers in this space; nothing: unknown
 };
 

@@ -63,7 +63,7 @@ using ExchangeRows = Among<Diffusive<2>, Diffusive<3>>;
 template <int D>
 using OnFlowIn = std::conditional_t<D == 3, Outside<Tracer<D>, Inviscid<3>>,
                                     std::conditional_t<D == 2, Outside<Tracer<D>, Diffusive<2>>, Outside<Tracer<D>>>>;
-/// Those of them that are not stretched.
+/// Those of them without vortex stretching.
 template <int D>
 using OnCarriedIn = std::conditional_t<D == 2, OnFlowIn<2>, Outside<Tracer<D>>>;
 

@@ -22,7 +22,7 @@ enum class LawKind {
 
 struct BoundLaw;
 
-/// A shipped law: what its struct says of itself, where it stands, and how it is made from its parameters.
+/// A shipped law: the description of its struct, its header, and its construction from parameters.
 struct LawInfo : LawText {
   LawKind kind;
   Symmetry symmetry;  ///< of pair laws; one_way is always possible

@@ -1,4 +1,4 @@
-// The laws of scenarios: each as its struct describes it, made from its parameters, with the rows on which it runs.
+// The laws of scenarios, with the description of each struct, its construction from parameters, and its rows.
 #include <boltzmann/scenario/law_binding.hpp>
 #include <boltzmann/scenario/laws.hpp>
 #include <boltzmann/schemes/smooth/force_on.hpp>

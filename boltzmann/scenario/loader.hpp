@@ -97,7 +97,7 @@ class Loader {
   double read_frame();
   void load_frame(AnyEnsemble& particles);
 
-  std::string ensemble_;  // what it is called
+  std::string ensemble_;  // name of the ensemble
   Reading& reading_;
   ClassVariant const* variant_;
   bool spacing_known_ = false, corners_read_ = false;

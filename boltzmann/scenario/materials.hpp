@@ -25,7 +25,7 @@ struct MaterialInfo : MaterialText {
   std::vector<Parameter> parameters;
 };
 
-/// Those of shipped_materials.list.
+/// The materials of shipped_materials.list.
 std::vector<MaterialInfo> const& material_catalogue();
 /// nullptr if there is none of that name.
 MaterialInfo const* find_material(std::string_view name);

@@ -215,7 +215,7 @@ class ClassReader {
   }
 
   bool can_be_named(std::string const& name, Place const& place) {
-    // Names that the program itself looks up.
+    // Names that the program itself uses for lookups.
     static std::vector<std::string> const of_classes{
         "internal_energy", "specific_energy", "temperature", "density",   "range",    "pressure",
         "sound_speed",     "vorticity",       "core",        "viscosity", "anchor",   "stress",

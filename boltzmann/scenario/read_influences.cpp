@@ -70,7 +70,7 @@ std::vector<Connection> read_connections(Item const& item, AnyEnsemble const* en
 /// Adds the influence of one table to the scheme: its law, ensembles and parameters.
 class InfluenceReader {
  public:
-  /// Table `number` of them. `one_of_several`: made from a table with `among`, which has been read.
+  /// Reads table `number`. `one_of_several`: expanded from a table with `among`, which has already been read.
   InfluenceReader(Item const& table, std::size_t number, Reading& reading, bool one_of_several)
       : reading_(reading),
         number_(number),
@@ -128,7 +128,7 @@ class InfluenceReader {
     read_options(section_, influence_options().only(keys), &options_, {.dimension = reading_.dimension});
   }
 
-  // ---- A law that is typed ----
+  // ---- A typed law ----
 
   void read_typed() {
     bool const by_energy = section_.has("energy");
@@ -288,7 +288,7 @@ class InfluenceReader {
     });
   }
 
-  /// Barostats must know whether energies jump when pairs cross the cut-off.
+  /// Records energies that jump when pairs cross the cut-off, because barostats need this.
   void note_jump(double reach) {
     if (std::isfinite(reach) && !reading_.run.shifted && !options_.tail &&
         typed_.at_cutoff == FormulaLaw::AtCutoff::cut && !reading_.jump)

@@ -348,7 +348,7 @@ double Loader::read_block() {
   if (dimension > 0 && spacing_known_) {
     try {
       volume_ = std::pow(block_.spacing / spacing_for_density(block_.kind, dimension, 1), dimension);
-    } catch (Error const&) {  // there is no such lattice: load() says so
+    } catch (Error const&) {  // there is no such lattice; load() reports it
     }
   }
   return count;

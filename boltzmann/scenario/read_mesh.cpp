@@ -1,4 +1,4 @@
-// Reads [mesh]: which field the particles make on a mesh; without it, schemes are pairs alone.
+// Reads [mesh]: the field of the particles on a mesh; without it, schemes are pairs only.
 #include <boltzmann/laws/laplace.hpp>
 #include <boltzmann/scenario/laws.hpp>
 #include <boltzmann/scenario/read_options.hpp>

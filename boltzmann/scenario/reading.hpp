@@ -198,7 +198,8 @@ struct Reading {
   Place bodies_place = {};
   Place shear_place = {};                     ///< in [box]
   bool shear_is_right = true;                 ///< otherwise checks that need it are skipped
-  std::set<std::string> acts_on_bodies = {};  ///< what has been told to: a law from outside, an ensemble of vortices
+  std::set<std::string> acts_on_bodies = {};  ///< influences already added to bodies: an external law, an ensemble of
+                                              ///< vortices
   std::vector<std::unique_ptr<ReadClass>> classes = {};
   std::vector<ReadBarostat> barostats = {};
   std::optional<Place> jump = {};  ///< a law whose energy jumps at its cut-off, without a tail
@@ -278,7 +279,7 @@ void read_ensembles(Section& document, Reading& reading);
 /// Applies remove_drift and exact_temperature to the particles that move, with their degrees of freedom in the
 /// simulation. Frozen particles and rigid bonds were not yet known when the velocities were drawn.
 void settle_velocities(Reading& reading);
-/// Places particles anew, at a distance from existing ones.
+/// Places particles again, at a distance from existing ones.
 using PlaceAgain = std::function<void(AnyEnsemble& particles, Box const& now, std::vector<AnyEnsemble const*> others,
                                       double distance)>;
 /// Particles to be added to an existing ensemble, as defined by `table` (the key `add` of an event), with defaults from

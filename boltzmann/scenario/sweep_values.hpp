@@ -40,7 +40,7 @@ void choose_run(Item& document, std::size_t run, Mistakes& mistakes);
 
 /// The document as TOML that can be read from any folder: [sweep] contains the folder of the scenario's files.
 std::string sweep_text(Item document, std::string const& folder);
-/// That folder; empty if it is not stored.
+/// The folder in that document; empty if it is not stored.
 std::string folder_of_sweep(Item const& document);
 
 /// Reads all of [sweep] into the result.

@@ -58,7 +58,7 @@ struct WallOptions {
   Box::End end = Box::End::low;
   bool open = false;
   std::optional<std::array<double, 3>> velocity;
-  Wall wall;  ///< in which it is not yet
+  Wall wall;  ///< without its region
 };
 OptionTable const& wall_options();
 
