@@ -16,7 +16,7 @@ namespace boltzmann {
 
 enum class RunState { waiting, done, failed };
 
-/// How a run of a sweep has ended. State `waiting`: it was stopped before its end.
+/// The end of a run of a sweep. State `waiting`: it was stopped before its end.
 struct RunEnd {
   RunState state = RunState::waiting;
   std::string reason;  ///< why it failed, in one line
@@ -73,7 +73,7 @@ struct FarmWord {
 struct FarmCalls {
   /// Executes a run, on the rank to which it is assigned.
   std::function<RunEnd(std::size_t run, FarmHand& hand)> perform;
-  /// True if this rank was asked to stop.
+  /// True if this rank has a request to stop.
   std::function<bool()> stop;
   /// Receives the messages of all ranks in a round, on every rank.
   std::function<void(std::vector<FarmWord> const& words)> hear;
