@@ -78,7 +78,7 @@ AddressFile::~AddressFile() {
 }
 
 Announcement::Announcement(std::string const& what, std::string const& address) {
-  // A launcher gives ranks a terminal even if its own output goes elsewhere.
+  // A launcher gives ranks a terminal even if its own output is redirected.
   if (isatty(STDOUT_FILENO) == 1 && team().alone()) {
     fmt::print("{}: {}\n", what, address);
   } else {

@@ -40,7 +40,7 @@ class Source {
   virtual nlohmann::json hello() const = 0;
   /// The members of an update, without views, table, selected and viewers.
   virtual nlohmann::json status() const = 0;
-  /// Changes when views may look different (a step was done), and when the status changes.
+  /// Changes when views may have changed (a step was done), and when the status changes.
   virtual std::uint64_t scene() const = 0;
   virtual std::uint64_t notice() const = 0;
 

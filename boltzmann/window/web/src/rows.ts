@@ -2,7 +2,7 @@
 import type { Update } from "./protocol";
 
 export class Rows {
-  /** Of the table; -1: none yet. */
+  /** Number of the table; -1: none yet. */
   number = -1;
   count = 0;
   private columns: Float64Array[] = [];

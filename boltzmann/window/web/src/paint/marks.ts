@@ -93,8 +93,8 @@ export class GpuMarks {
   }
 
   /**
-   * Draws mark number `first` and then every so manieth. Points are for clouds: without a graphics card, quads, which are
-   * instances, are drawn one by one, a hundred times as slowly.
+   * Draws every `every`-th mark from `first` on. Clouds use points, because without a graphics card quads, which are
+   * instances, are drawn one by one and a hundred times slower.
    */
   private draw(sources: (Source | null)[], count: number, quads: boolean, every = 1, first = 0) {
     const { gl } = this.shared;
