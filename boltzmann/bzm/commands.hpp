@@ -16,7 +16,7 @@ namespace boltzmann::bzm {
 /// A separate status: a batch script must distinguish a run that needs to be resumed from a finished one.
 inline constexpr int out_of_time_status = 4;
 
-/// How a run is shown.
+/// Options of a run in a window.
 struct WindowRun {
   bool open = false;       ///< in a window
   std::uint16_t port = 0;  ///< 0: any free port
