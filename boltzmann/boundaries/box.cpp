@@ -1,5 +1,4 @@
-// Wrapping, reflecting and mirroring, where moving walls are, and the refusals of particles that can't be where they
-// are.
+// Wrapping, reflecting and mirroring; positions of moving walls; errors for particles at invalid positions.
 #include <boltzmann/boundaries/box.hpp>
 #include <boltzmann/boundaries/far_from_box.hpp>
 #include <boltzmann/boundaries/flow_images.hpp>
@@ -284,7 +283,7 @@ double Box::wrapped(double x, int axis) const {
   double const low = low_[axis], high = high_[axis];
   if (x >= low && x < high) return x;
   x -= length(axis) * std::floor((x - low) / length(axis));
-  return x >= low && x < high ? x : low;  // a rounding error beyond
+  return x >= low && x < high ? x : low;  // beyond the end by a rounding error
 }
 
 void Box::wrap(AnyEnsemble& particles) const {
@@ -313,14 +312,14 @@ void Box::wrap_gradient(AnyEnsemble& particles) const {
   }
 }
 
-/// The particles of one ensemble that have left are brought back.
+/// Brings back the particles of one ensemble that have left.
 class Box::Reflection {
  public:
   Reflection(Box const& box, AnyEnsemble& particles)
       : box_(box), particles_(particles), low_(box.low_), high_(box.high_) {
     Field const* velocity = particles.find_field("velocity");
     if (velocity && velocity->components == box.dimension_)
-      velocity_ = velocity;  // else a class' own, of another meaning
+      velocity_ = velocity;  // else the field belongs to a user's class and has another meaning
     Field const* vorticity = particles.find_field("vorticity");
     if (vorticity && is_vorticity(*vorticity, box.dimension_)) vorticity_ = vorticity;
     Field const* mass = particles.find_field("mass");
@@ -332,7 +331,8 @@ class Box::Reflection {
     }
   }
 
-  /// Through the ends of a sheared box's gradient: who has left becomes its image, which may be anywhere along the flow.
+  /// Through the ends of a sheared box's gradient: a particle that has left is replaced by its image, which may be
+  /// anywhere along the flow.
   void across_the_gradient(std::size_t begin, std::size_t end) const {
     int const g = box_.shear().gradient, f = box_.shear().flow;
     double const length = box_.length(f), slide = box_.slide_in_lattice();
@@ -353,7 +353,7 @@ class Box::Reflection {
     }
   }
 
-  /// At the ends of the box. `work`, unless null: what moving walls do.
+  /// At the ends of the box. `work`, unless null, accumulates the work of moving walls.
   void at_ends(std::size_t begin, std::size_t end, ExactSum* work) const {
     for (std::size_t i = begin; i < end; ++i) {
       double const* x = particles_.row(i);
@@ -385,14 +385,14 @@ class Box::Reflection {
   [[noreturn]] void fail(std::size_t i, int a, double x, char const* kept_in, double low, double high) const {
     if (!std::isfinite(x))
       throw PhysicsFailure(fmt::format("{} has a position that is not finite", who(particles_, i)));
-    Dimension const unit = particles_.fields().front().dimension;  // of what moves: a length, an angle
+    Dimension const unit = particles_.fields().front().dimension;  // of the coordinate: a length, an angle
     auto const told = [&](double place) { return box_.units_.text(place, unit); };
     throw PhysicsFailure(
         fmt::format("{} escaped: {} = {} is further out of the {}, {} to {}, than one step should bring it",
                     who(particles_, i), "xyz"[a], told(x), kept_in, told(low), told(high)));
   }
 
-  /// The work done on the particle; in the frame of the wall it is an elastic reflection.
+  /// Returns the work done on the particle; in the frame of the wall the reflection is elastic.
   double push_off(std::size_t i, int a, End end) const {
     double const u = box_.wall_velocity(a, end, a);
     reflect(end == End::low ? box_.low_[a] : box_.high_[a], particles_.row(i) + a, nullptr);
@@ -412,7 +412,7 @@ class Box::Reflection {
     double const before = *x;
     double work = 0;
     if (box_.boundary(a) == Boundary::periodic) {
-      // Within a rounding error of an edge the sum may land on or beyond the other edge: that is `low`.
+      // Within a rounding error of an edge the sum may be on or beyond the other edge; the coordinate is then `low`.
       if (*x < low) {
         *x += length;
         if (*x >= high) *x = low;
@@ -444,7 +444,7 @@ class Box::Reflection {
     }
   }
 
-  /// Through the face that it came in by: the nearest one that it moves away from.
+  /// Reflects the particle at the face through which it has entered: the nearest one that it moves away from.
   void keep_out(Region const& region, double* x, double* v) const {
     int axis = -1;
     double wall = 0, depth = 0;
@@ -460,7 +460,7 @@ class Box::Reflection {
   Box const& box_;
   AnyEnsemble& particles_;
   Field const *velocity_ = nullptr, *vorticity_ = nullptr, *mass_ = nullptr;
-  std::array<double, 3> low_, high_;  ///< beyond them something happens
+  std::array<double, 3> low_, high_;  ///< limits beyond which a particle has left
 };
 
 double Box::apply(AnyEnsemble& particles, int threads, Division* division) const {

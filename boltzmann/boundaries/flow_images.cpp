@@ -1,4 +1,4 @@
-// Which images a flow between walls has, and what they are.
+// Finds the images of a flow between walls.
 #include <boltzmann/boundaries/flow_images.hpp>
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/particles/ensemble.hpp>

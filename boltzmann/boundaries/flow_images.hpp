@@ -10,23 +10,24 @@ namespace boltzmann {
 
 class AnyEnsemble;
 
-/// Whether a field is the vorticity of a vortex: a circulation in 2D, in 3D a vector of circulation times length.
+/// True if a field is the vorticity of a vortex: a circulation in 2D, in 3D a vector of circulation times length.
 bool is_vorticity(Field const& field, int dimension);
 
-/// What a component of vorticity is multiplied with in this image. Vorticity is an axial vector: beyond a wall its
-/// component along the wall's normal stays, those along the wall change sign; in 2D the only one is out of the plane.
+/// The factor of a component of vorticity in this image. Vorticity is an axial vector: beyond a wall its component
+/// along the wall's normal keeps its sign, those along the wall change sign. In 2D the only component is out of the
+/// plane.
 double vorticity_sign(Box const& box, int component, Turns const& turns);
 
-/// All images of a flow but those that repeat: beyond one wall of each mirror axis, and in corners beyond several (with
-/// walls at both ends of an axis everything repeats after twice its length).
+/// All images of a flow except periodic ones: beyond one wall of each mirror axis, and in corners beyond several (with
+/// walls at both ends of an axis the images repeat after twice its length).
 std::vector<Turns> flow_images(Box const& box);
 
-/// The rows of these images of all particles, stride() numbers each: places and vorticity as images have them, all else
-/// as it is.
+/// The rows of these images of all particles, stride() numbers each: positions and vorticity of the image, all else
+/// copied.
 void find_flow_images(AnyEnsemble const& ensemble, Box const& box, std::vector<Turns> const& images,
                       std::vector<double>& rows);
 
-/// Error, which begins with `who`, unless all walls of mirror axes slip and rest: only these are made by images.
+/// Error, beginning with `who`, unless all walls of mirror axes slip and are at rest: images describe no other walls.
 void check_walls_of_flow(Box const& box, char const* who);
 
 }  // namespace boltzmann

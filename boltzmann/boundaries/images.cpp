@@ -1,4 +1,4 @@
-// What walls make of the numbers of a particle.
+// Maps of a particle's numbers beyond walls.
 #include <boltzmann/boundaries/images.hpp>
 
 #include <cmath>
@@ -7,7 +7,7 @@
 namespace boltzmann {
 namespace {
 
-/// About which value a number is odd at this wall; none: it is even there.
+/// The value about which a number is odd at this wall; none: it is even there.
 std::optional<double> odd_about(Box const& box, ImageComponent of, int axis, Box::End end) {
   Wall const& wall = box.wall(axis, end);
   bool const along_normal = axis == of.axis;
@@ -38,8 +38,9 @@ std::optional<double> odd_about(Box const& box, ImageComponent of, int axis, Box
 
 }  // namespace
 
-// Odd at walls at w0, w1, ...: x -> 2 w0 - x -> 2 w1 - (2 w0 - x) ...; the mean of all orders, which is each of them
-// where the walls agree: even numbers of walls leave x, odd ones turn it about the walls' mean.
+// Odd at walls at w0, w1, ...: x -> 2 w0 - x -> 2 w1 - (2 w0 - x) ...; the mean over all orders, which equals each of
+// them if the walls agree. An even number of walls leaves x unchanged, an odd number reflects it about the mean of the
+// walls.
 ImageMap image_map(Box const& box, ImageComponent component, Turns const& turns) {
   return image_map(box, component, turns, box.whole_slide());
 }

@@ -1,5 +1,6 @@
-// Images: where particles are seen again, beyond periodic ends and beyond the walls of mirror axes, and what they carry
-// there. Every image is composed here: those of sorted copies and of smooth fields, and what a mirror puts back.
+// Images: the positions of particles beyond periodic ends and beyond walls of mirror axes, and the numbers that they
+// carry there. All images are composed here: those of sorted copies and of smooth fields, and the particles that a
+// mirror replaces.
 #pragma once
 
 #include <boltzmann/boundaries/box.hpp>
@@ -10,57 +11,57 @@
 
 namespace boltzmann {
 
-/// Which image: by how many lengths it is moved along a periodic axis; along a mirror axis -1 and 1 for the wall at the
-/// low and the high end. All 0: the particle itself. Turns along the gradient of a sheared box also slide along its flow.
+/// Image index: the number of lengths by which an image is shifted along a periodic axis; along a mirror axis -1 and 1
+/// for the wall at the low and the high end. All 0: the particle itself. A shift along the gradient of a sheared box
+/// also slides the image along its flow.
 using Turns = std::array<int, 3>;
 
-/// What a number of a particle is in an image: sign * x + shift; as it stands, a zero's sign included, unless said
-/// otherwise.
+/// The value of a number in an image: sign * x + shift. By default the number itself, including the sign of zero.
 struct ImageMap {
   double sign = 1, shift = -0.0;
   double operator()(double x) const { return sign * x + shift; }
 };
 
-/// How a number of a particle is found in its image beyond a wall. Along a periodic axis images differ in `position`
-/// alone, along the gradient of a sheared box in `position` and `velocity`.
+/// The transformation of a number in the image beyond a wall. Along a periodic axis only `position` changes, along the
+/// gradient of a sheared box `position` and `velocity`.
 enum class ImageRule : unsigned char {
-  same,           ///< as it is: mass, density, the temperature's history, ...
+  same,           ///< unchanged: mass, density, the temperature's history, ...
   position,       ///< reflected about the wall
-  velocity,       ///< as the wall says (Wall::slips, Wall::velocity)
-  displacement,   ///< that of a particle which the wall reflects so: as `velocity` at a wall at rest
-  temperature,    ///< as the wall says (Wall::temperature)
-  normal_vector,  ///< a reflected vector: its component along the wall's normal changes sign (grad of what is `same`)
+  velocity,       ///< as defined by the wall (Wall::slips, Wall::velocity)
+  displacement,   ///< of a particle with such an image: as `velocity` at a wall at rest
+  temperature,    ///< as defined by the wall (Wall::temperature)
+  normal_vector,  ///< a reflected vector: its component along the wall's normal changes sign (the gradient of a `same`
+                  ///< number)
   heat_flux,  ///< of such a temperature: at an insulated wall as normal_vector; at a wall of given temperature, about
-              ///< which the image's is odd, the components along the wall change sign
-  tensor,     ///< pressure or stress of such velocities: reflected at a wall that slips; even, as it is, at one that
-              ///< does not
+              ///< which temperature is odd, the components along the wall change sign
+  tensor,     ///< pressure or stress of such velocities: reflected at a wall that slips, unchanged at one that does not
 };
-/// The rule for one number of a row, and which component of a vector, or which two of a tensor, it is.
+/// The rule of one number of a row, and its component of a vector, or its two indices of a tensor.
 struct ImageComponent {
   ImageRule rule = ImageRule::same;
   int axis = 0, axis2 = 0;
 };
 
-/// What this number is in that image, for walls as they are now. Beyond several walls the images are composed; where
-/// these walls differ, so that the order would matter, it is the mean of all orders.
+/// The map of this number to an image, for the current walls. Beyond several walls the images are composed. If these
+/// walls differ, so that the order matters, it is the mean over all orders.
 ImageMap image_map(Box const& box, ImageComponent component, Turns const& turns);
-/// The same for turns along the flow of a sheared box that were counted when so much of its slide was whole lengths
+/// The same, for turns along the flow of a sheared box that were counted at a slide with these whole lengths
 /// (Box::whole_slide()).
 ImageMap image_map(Box const& box, ImageComponent component, Turns const& turns, double whole_slide);
 
-/// Where the images of positions are, for ends and walls that stand, or stood, at these edges, and images that slide, or
-/// slid, by so much (Box::slide_in_lattice()).
+/// The positions of images, for given edges of ends and walls and a given slide (Box::slide_in_lattice()), which may be
+/// those of an earlier time.
 class Images {
  public:
   explicit Images(Box const& box) : Images(box, box.edges(), box.slide_in_lattice()) {}
   Images(Box const& box, Box::Edges const& edges, double slide) : box_(&box), edges_(edges), slide_(slide) {}
 
-  /// The most turns along this axis of images within `reach` of the box.
+  /// The largest image index along this axis within `reach` of the box.
   int most(int axis, double reach) const;
-  /// Whether there can be such an image within `reach` of the box; there is none beyond a wall that was opened.
+  /// True if there can be such an image within `reach` of the box; there is none beyond an end that was opened.
   bool exists(Turns const& turns, double reach) const;
-  /// From which turns to which along this axis images of a coordinate, inside if it is periodic, are within `reach` of
-  /// the box: most have none. Not of a sheared box.
+  /// The range of image indices along this axis for which the image of a coordinate, inside if the axis is periodic, is
+  /// within `reach` of the box; mostly empty. Not for a sheared box.
   struct Range {
     int first = 0, last = 0;
   };
@@ -68,15 +69,15 @@ class Images {
     bool const inside = x > edges_[axis] + reach && x < edges_[3 + axis] - reach;
     return inside ? Range{} : turns_near_end(axis, reach, x);
   }
-  /// The coordinate of an image, by the turns along this axis alone.
+  /// The coordinate of an image by its index along this axis alone.
   double at(int axis, int turns, double x) const;
-  /// And by all turns.
+  /// The coordinate by all indices.
   double at(int axis, Turns const& turns, double x) const {
     double const plain = at(axis, turns[axis], x);
     Shear const& shear = box_->shear();
     return slide_ != 0 && axis == shear.flow ? plain + turns[shear.gradient] * slide_ : plain;
   }
-  /// Calls function(turns, position) for every image of x, itself included, within reach of the box; x is inside
+  /// Calls function(turns, position) for every image of x within reach of the box, including x itself; x must be inside
   /// periodic axes.
   template <class Function>
   void each(double const* x, double reach, Function const& function) const;
@@ -109,7 +110,7 @@ inline Images::Range Images::turns_near_end(int axis, double reach, double x) co
     return there >= least && there <= greatest;
   };
   Range range;
-  if (box_->periodic(axis) && length > 2.1 * reach) {  // one image at most, whatever is rounded
+  if (box_->periodic(axis) && length > 2.1 * reach) {  // at most one image, for any rounding
     if (x - length >= least) return {-1, 0};
     if (x + length <= greatest) return {0, 1};
   } else if (box_->periodic(axis)) {
@@ -153,7 +154,7 @@ void Images::each(double const* x, double reach, Function const& function) const
   }
 }
 
-/// The gradient before the flow, along which images begin where the slide has brought them.
+/// The gradient before the flow, as the slide shifts the images along the flow.
 template <class Function>
 void Images::each_sheared(double const* x, double reach, Function const& function) const {
   int const g = box_->shear().gradient, f = box_->shear().flow, other = 3 - g - f;

@@ -1,4 +1,4 @@
-// bzm accuracy: error against cost, so that a tolerance is chosen by looking.
+// bzm accuracy: error against cost, as a basis for the choice of a tolerance.
 #include <boltzmann/bzm/commands.hpp>
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/pictures/draw_arrays.hpp>
@@ -36,7 +36,7 @@ int accuracy(AccuracyOptions const& options) {
     if (found.order == 0) {
       fmt::print("  {:9.0e}  {:>9}  {:>5}  {:>12}  {:12.4g}  {:9.3g}\n", tolerance, "rounding", "", "",
                  static_cast<double>(found.pairs), trial.seconds);
-      if (errors.empty()) break;  // so few that this goes for all
+      if (errors.empty()) break;  // so few sources that the sums are exact at every tolerance
     } else {
       fmt::print("  {:9.0e}  {:9.1e}  {:5}  {:12.4g}  {:12.4g}  {:9.3g}\n", tolerance, found.measured, found.order,
                  static_cast<double>(found.translations), static_cast<double>(found.pairs), trial.seconds);

@@ -1,4 +1,4 @@
-// bzm bench: how fast is this machine with this program? A few standard problems, run through the shipped laws.
+// bzm bench: the speed of this machine for a few standard problems, with the shipped laws.
 #include <boltzmann/bzm/bench_problems.hpp>
 #include <boltzmann/bzm/commands.hpp>
 #include <boltzmann/core/clock.hpp>
@@ -51,7 +51,7 @@ void unit_masses(AnyEnsemble& particles) {
   for (std::size_t i = 0; i < particles.size(); ++i) particles.row(i)[mass->offset] = 1;
 }
 
-/// Pairs of particles closer than the cut-off, each seen from both.
+/// Pairs of particles closer than the cut-off; each pair counts twice.
 double pairs_within(AnyEnsemble const& particles, Box const& box, double cutoff) {
   Ensemble<Newton<3>> points("points", particles.size());
   for (std::size_t i = 0; i < points.size(); ++i)
@@ -102,7 +102,7 @@ Problem stars() {
   return problem;
 }
 
-/// A chain of springs, stretched a little: sound runs in from its ends.
+/// A chain of springs, stretched a little: sound waves run inwards from its ends.
 Problem chain() {
   constexpr std::size_t count = 100000;
   Problem problem = make("Newton", 1, count, Box(Vector{0.0}, Vector{static_cast<double>(count)}), no_cutoff);
@@ -146,7 +146,7 @@ std::string rate(double value) {
   return fmt::format("{:.{}f} {}", value, value < 9.995 ? 2 : value < 99.95 ? 1 : 0, unit);
 }
 
-/// A file that is opened before anything is measured, so that a wrong name is known at once.
+/// A file that is opened before the measurements, so that a wrong name is reported immediately.
 class FiguresFile {
  public:
   explicit FiguresFile(std::string path) : path_(std::move(path)) {

@@ -1,4 +1,4 @@
-// What bzm bench runs. Private to this room.
+// The problems of bzm bench. Private to this module.
 #pragma once
 
 #include <boltzmann/schemes/pair/pair_scheme.hpp>
@@ -9,7 +9,8 @@
 
 namespace boltzmann::bzm {
 
-/// A simulation that is ready to run, and how many influences of one particle on another a step of it computes.
+/// A simulation that is ready to run, and the number of pair interactions that a step computes (each pair counts
+/// twice).
 struct Problem {
   std::unique_ptr<AnyEnsemble> particles;
   std::unique_ptr<PairScheme> scheme;

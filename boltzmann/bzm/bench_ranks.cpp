@@ -1,4 +1,4 @@
-// bzm bench --ranks: what a step costs each rank, in processor time, and what ranks tell each other.
+// bzm bench --ranks: processor time of each rank per step, and the communication between ranks.
 #include <boltzmann/bzm/bench_problems.hpp>
 #include <boltzmann/bzm/commands.hpp>
 #include <boltzmann/core/error.hpp>
@@ -17,13 +17,13 @@
 namespace boltzmann::bzm {
 namespace {
 
-// Of the network and the nodes that projections are for.
+// Network and nodes assumed for the projections.
 constexpr double bandwidth = 12e9, latency = 2e-6;  // bytes a second, seconds
 constexpr int nodes[] = {64, 1024};
 
-/// What a run has taken of a rank, for each step.
+/// Cost of a run on one rank, per step.
 struct Cost {
-  double seconds = 0;  ///< of its processor, waiting apart
+  double seconds = 0;  ///< processor time, without waiting
   double collectives = 0, messages = 0, bytes = 0;
 };
 
@@ -43,7 +43,7 @@ Cost run(Simulation& simulation, std::uint64_t steps) {
           each(here.counts().messages - counts.messages), each(here.counts().bytes - counts.bytes)};
 }
 
-/// Those of all ranks, number by number.
+/// Minimum, mean and maximum over all ranks, for each number.
 struct OverRanks {
   Cost least, mean, most;
 };
@@ -63,8 +63,8 @@ OverRanks over_ranks(Cost const& mine) {
   return all;
 }
 
-/// As many particles on each node as on a rank here; the network carries what was counted, and where lists are built
-/// all rows to all nodes.
+/// Projected parallel efficiency, for nodes with as many particles each as a rank here. The network transfers the
+/// measured bytes, and all rows to all nodes at each list build.
 double projected(Cost const& cost, double builds, double own, double row_bytes, int ranks, int count) {
   double const gathered = builds * own * row_bytes;
   double const between_builds = std::max(cost.bytes - gathered * (ranks - 1), 0.0);
@@ -73,7 +73,7 @@ double projected(Cost const& cost, double builds, double own, double row_bytes, 
   return cost.seconds / (cost.seconds + rest);
 }
 
-/// How unlike the work of ranks is where it moves: water that stands in one corner of a tank, and flows along it.
+/// Load imbalance where the work moves: water that starts in one corner of a tank and flows along it.
 std::string balance_of_a_dam_break() {
   constexpr std::uint64_t steps = 300;
   constexpr int pieces = 4;
@@ -111,7 +111,7 @@ int bench_on_ranks(BenchOptions const& options) {
     Problem problem = melt(cells);
     problem.simulation->threads(1);
     auto const particles = static_cast<double>(problem.particles->size());
-    // So many steps that all of it takes the time, at some 4 million particle-steps a second.
+    // Choose the number of steps to fill the time, at about 4 million particle-steps a second.
     double const possible = options.seconds / 2 / rounds * 4e6 / particles / (1 + 1.0 / ranks);
     auto const steps = static_cast<std::uint64_t>(std::clamp(possible, 20.0, 100000.0));
     double alone = std::numeric_limits<double>::infinity(), mean = 0, builds = 0;

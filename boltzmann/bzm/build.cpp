@@ -1,4 +1,4 @@
-// bzm build: the compiler line of a user's program, printed and run.
+// bzm build: the compiler line of a user's program, printed and executed.
 #include <boltzmann/bzm/commands.hpp>
 #include <boltzmann/bzm/process.hpp>
 #include <boltzmann/core/clock.hpp>
@@ -19,17 +19,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// As pack.hpp and interaction.hpp say it.
+// The same texts as in pack.hpp and interaction.hpp.
 constexpr char const* select_hint = "of several particles at once there is no `if`: write select(condition, a, b)";
 constexpr char const* interaction_hint = "an Interaction is {force, energy}, in this order";
 
 struct Installation {
   std::string include, library;
   std::string precompiled =
-      {};  // what most programs include, as the examples beside it have it: half of the time of a short one
+      {};  // includes of most programs, with the shipped examples; halves the build time of a short one
 };
 
-/// A precompiled header that no header has changed since; empty: there is none. The compiler does not look.
+/// Returns the precompiled header if no header has changed since it was made; else empty. The compiler does not check
+/// this.
 std::string precompiled_header(fs::path const& source, fs::path const& build) {
   auto const header = build / "CMakeFiles/examples_header.dir/cmake_pch.hxx";
   std::error_code error;
@@ -40,8 +41,8 @@ std::string precompiled_header(fs::path const& source, fs::path const& build) {
   return header.string();
 }
 
-// Where headers and library are: in the source and build folders if this program is in its build folder, else where it
-// is installed.
+// Location of headers and library: the source and build folders if this program runs in its build folder, else the
+// installation.
 Installation installation() {
   fs::path const own = own_path(), build = own.parent_path(), prefix = build.parent_path();
   std::error_code ignored;
@@ -66,7 +67,7 @@ std::vector<std::string> words_of(std::string const& text) {
   return words;
 }
 
-// What libboltzmann.a itself needs.
+// The dependencies of libboltzmann.a itself.
 std::vector<std::string> dependencies() {
   auto words = words_of(output_of({"pkg-config", "--libs", "fftw3", "cairo", "hdf5", "zlib"}));
   if (!words.empty()) return words;
@@ -77,10 +78,10 @@ std::vector<std::string> dependencies() {
   return words;
 }
 
-// What is meant by the compiler's messages that laws on many particles at once lead to.
+// Explains compiler messages that are typical of laws on packs of particles.
 std::vector<std::string> hints(std::string const& messages) {
-  // With packs, as in "no matching function for call to 'exp(boltzmann::Pack<double>&)'"; clang++ says "for call to
-  // 'exp'", and of what in a note.
+  // With packs, as in "no matching function for call to 'exp(boltzmann::Pack<double>&)'". clang++ writes "for call to
+  // 'exp'" and names the argument type in a note.
   std::set<std::string> called;
   std::istringstream lines(messages);
   std::string of_clang;
@@ -112,7 +113,7 @@ int build(BuildOptions const& options) {
     throw Error("'" + options.program + "' would be replaced by its own program; name another with -o");
   auto const place = installation();
   char const* chosen = std::getenv("CXX");
-#ifdef BOLTZMANN_SANITIZED  // the compiler and the flag of the library, which no other links with
+#ifdef BOLTZMANN_SANITIZED  // the compiler and the flag of the library; other sanitizer runtimes do not link with it
   std::vector<std::string> line = words_of(chosen ? chosen : BOLTZMANN_SANITIZED);
 #else
   std::vector<std::string> line = words_of(chosen ? chosen : "g++");
@@ -126,7 +127,7 @@ int build(BuildOptions const& options) {
   line.push_back("-I" + place.include);
   if (!place.precompiled.empty() && !chosen) line.insert(line.end(), {"-include", place.precompiled});
 #ifndef BOLTZMANN_SANITIZED
-  // It takes half the time of the usual one.
+  // The gold linker needs half the time of the default linker.
   if (!chosen && !find_program("ld.gold").empty()) line.emplace_back("-fuse-ld=gold");
 #endif
   line.push_back(options.program);

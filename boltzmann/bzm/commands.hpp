@@ -1,5 +1,5 @@
-// The commands of bzm: what each is told, and the exit status that it gives (0 done, 1 internal error, 2 wrong input,
-// 3 the physics failed, 4 out of time, 130 stopped by a signal). Mistakes are thrown as Error and PhysicsFailure.
+// The commands of bzm: their options, and the exit status that they return (0 done, 1 internal error, 2 wrong input, 3
+// the physics failed, 4 out of time, 130 stopped by a signal). Mistakes are thrown as Error and PhysicsFailure.
 #pragma once
 
 #include <boltzmann/scenario/overrides.hpp>
@@ -13,14 +13,14 @@
 
 namespace boltzmann::bzm {
 
-/// A status of its own: a script that has to submit the rest of a run must tell it from a run that is done.
+/// A separate status: a batch script must distinguish a run that needs to be resumed from a finished one.
 inline constexpr int out_of_time_status = 4;
 
-/// How a run is looked at.
+/// Options of a run in a window.
 struct WindowRun {
   bool open = false;       ///< in a window
-  std::uint16_t port = 0;  ///< 0: a free one
-  bool play = false;       ///< begins at once, and ends by itself
+  std::uint16_t port = 0;  ///< 0: any free port
+  bool play = false;       ///< start immediately, and exit after the last step
 };
 
 struct RunOptions {
@@ -46,7 +46,7 @@ int resume(ResumeOptions const& options);
 struct RenderOptions {
   std::string folder, out;
   std::optional<std::int64_t> frame;  ///< counts from 0; negative: from the end
-  PictureWords picture;               ///< what is said of it
+  PictureWords picture;               ///< options of the picture
   bool dark = false;
   int frames_per_second = 25;
   double scale = 1;
@@ -56,20 +56,20 @@ int render(RenderOptions const& options);
 struct ExportRun {
   std::string folder, out;
   std::string frames;                          ///< "a:b:c"; empty: all
-  std::vector<std::string> ensembles, fields;  ///< with commas or several; empty: all
+  std::vector<std::string> ensembles, fields;  ///< comma-separated or repeated; empty: all
   std::vector<std::string> species;            ///< "ensemble=Cu"
-  std::string units;                           ///< empty: those of the format
+  std::string units;                           ///< empty: the default units of the format
 };
 int export_run(ExportRun const& options);
-/// What stands below the options in its help: the formats.
+/// The list of formats below the options in the help.
 std::string export_help();
 
-/// The page of a stored run as a file, in place of a window.
+/// Writes the page of a stored run to a file instead of opening a window.
 struct PageFile {
-  std::string out;                 ///< empty: none
-  std::vector<std::string> views;  ///< empty: those of the run
-  std::size_t frames = 100;        ///< at most
-  double megabytes = 8;            ///< at most
+  std::string out;                 ///< empty: open a window
+  std::vector<std::string> views;  ///< empty: the views of the run
+  std::size_t frames = 100;        ///< maximum
+  double megabytes = 8;            ///< maximum
 };
 
 struct WindowCommand {
@@ -79,22 +79,22 @@ struct WindowCommand {
 };
 int window(WindowCommand const& command);
 
-/// `kind` empty: all kinds of names; or one of listed_kinds() (scenario/catalogue_pages.hpp).
+/// `kind`: empty for all kinds of names, or one of listed_kinds() (scenario/catalogue_pages.hpp).
 int list(std::string const& kind, bool names_only);
-/// Error if there is no name, or, of the schema, if there is one.
+/// Throws Error if there is no such name, or, for the schema, if a name is given.
 int show(std::string const& name);
 int show_schema(std::string const& name);
 int check(std::string const& scenario, Overrides const& overrides);
-/// What it shows: a gas, a class of its own, or laws of its own.
+/// Content of a new scenario: a gas, a class of its own, or laws of its own.
 enum class NewScenario { plain, of_class, of_law };
 int new_scenario(std::string const& name, NewScenario kind);
 
 struct AccuracyOptions {
   std::string scenario;
   Overrides overrides;
-  std::string out;  ///< a picture; empty: none
+  std::string out;  ///< file of a picture; empty: none
 };
-/// What the tolerances of a scenario's multipoles cost, and reach.
+/// The cost of a scenario's multipoles against tolerance, and the accuracy reached.
 int accuracy(AccuracyOptions const& options);
 
 struct BuildOptions {
@@ -107,13 +107,13 @@ int doctor(std::string const& folder);
 
 struct BenchOptions {
   double seconds = 20;         ///< for all problems together
-  std::optional<int> threads;  ///< the most that are tried [all]
-  std::string json;            ///< a file for the figures; empty: none
+  std::optional<int> threads;  ///< the largest number to measure [all]
+  std::string json;            ///< file for the results; empty: none
 };
 int bench(BenchOptions const& options);
 int bench_on_ranks(BenchOptions const& options);
 
-/// What a shell completes of a command; from the parser.
+/// The completions of a command, taken from the parser.
 struct CommandWords {
   struct Option {
     std::string name, doc;  ///< "--set"
@@ -122,13 +122,13 @@ struct CommandWords {
   std::string name, doc;
   std::vector<Option> options;
   std::string
-      argument;  ///< what stands behind the command: "scenario", "folder", "program", "name", ...; "" if nothing
+      argument;  ///< kind of the positional argument: "scenario", "folder", "program", "name", ...; "" if there is none
 };
 /// Prints the completion script of a shell: bash, zsh or fish.
 int completion(std::string const& shell, std::vector<CommandWords> const& commands);
 std::vector<std::string> const& completion_shells();
 
-/// The version with its commit, as `git describe` says it; made by the build (cmake/describe.cmake).
+/// The version with its commit, from `git describe`. The build generates it (cmake/describe.cmake).
 extern char const* const described_version;
 
 }  // namespace boltzmann::bzm

@@ -1,5 +1,5 @@
-// bzm completion: what a shell needs to complete bzm's commands, options, scenarios and files. Commands and options are
-// the parser's; only how a shell is told is written here.
+// bzm completion: what a shell needs to complete bzm's commands, options, scenarios and files. Commands and options
+// come from the parser; this file only has the syntax of each shell.
 #include <boltzmann/bzm/commands.hpp>
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/scenario/catalogue_pages.hpp>
@@ -12,9 +12,9 @@
 namespace boltzmann::bzm {
 namespace {
 
-/// What stands behind a command, and how each shell finds it.
+/// A kind of positional argument, and how each shell completes it.
 struct Argument {
-  char const* name;  ///< as the parser calls it
+  char const* name;  ///< the name in the parser
   char const *bash, *zsh, *fish;
 };
 constexpr Argument arguments[] = {
@@ -39,7 +39,7 @@ std::string replaced(std::string text, std::string const& what, std::string cons
 
 std::string spaced(std::vector<std::string> const& words) { return join(words, " "); }
 
-/// How `shell` finds the command's argument; "" if there is none to find.
+/// The completion code of `shell` for the command's argument; "" if there is nothing to complete.
 std::string argument(CommandWords const& command, char const* Argument::*shell) {
   if (command.name == "new") return "";  // a name of the user's own
   for (auto const& each : arguments)
@@ -92,7 +92,7 @@ complete -o filenames -F _bzm bzm
                   words);
 }
 
-// Within single quotes of zsh and its lists, where brackets and colons mean something.
+// Escapes a text for zsh: within single quotes and lists, where brackets and colons are special.
 std::string for_zsh(std::string text) {
   for (auto const* mark : {"\\", "[", "]", ":"}) text = replaced(text, mark, std::string("\\") + mark);
   return replaced(text, "'", "'\\''");

@@ -1,4 +1,4 @@
-// bzm doctor: is this machine fit to run, and does it compute right?
+// bzm doctor: checks the installation and the correctness of results on this machine.
 #include <boltzmann/bzm/commands.hpp>
 #include <boltzmann/bzm/launch.hpp>
 #include <boltzmann/bzm/process.hpp>
@@ -28,7 +28,7 @@
 #include <string>
 #include <vector>
 
-// Their headers are not needed for a version.
+// Declared here, because their headers are not needed for a version.
 extern "C" {
 int H5get_libversion(unsigned* major, unsigned* minor, unsigned* release);
 char const* cairo_version_string(void);
@@ -72,7 +72,7 @@ std::string cpu_name() {
   return "unknown";
 }
 
-// Which kernels run, which could, and how to choose.
+// The instruction set in use, those available, and how to choose.
 std::string instructions() {
   std::vector<std::string> words;
   for (auto const set : instruction_sets()) words.push_back(to_string(set));
@@ -93,7 +93,7 @@ void check_compiler(Findings& findings) {
     findings.ok("compiler", first_line(output_of({path, "--version"})));
 }
 
-// What bzm run --ranks needs: a launcher, and a plug-in of the same MPI.
+// Checks the requirements of bzm run --ranks: a launcher, and the plug-in for the same MPI.
 void check_mpi(Findings& findings) {
   auto const launcher = launcher_version();
   auto const plugin = open_mpi_plugin();
@@ -109,7 +109,7 @@ void check_mpi(Findings& findings) {
     findings.note("MPI plug-in", "libboltzmann_mpi.so is not there; " + how_to_make_mpi_plugin());
 }
 
-// 64 MB to the disk and away again.
+// Writes 64 MB to the disk and removes them.
 void check_writing(std::string const& folder, Findings& findings) {
   fs::path place = folder;
   std::error_code ignored;
@@ -137,8 +137,8 @@ void check_writing(std::string const& folder, Findings& findings) {
                 fmt::format("{:.0f} MB/s to {}", 64 / time, fs::absolute(place).lexically_normal().string()));
 }
 
-// The start of the standard Lennard-Jones liquid benchmark: 32,000 atoms on an fcc lattice at density 0.8442, cut at
-// 2.5: potential energy -6.7733680532 per atom. Then as many steps as half a second holds.
+// The start of the standard Lennard-Jones liquid benchmark: 32,000 atoms on an fcc lattice at density 0.8442, cut-off
+// 2.5, potential energy -6.7733680532 per atom. Then runs as many steps as fit into half a second.
 void check_physics(Findings& findings) {
   constexpr double wanted = -6.7733680532;
   double const edge = 20 * std::cbrt(4 / 0.8442);
@@ -147,12 +147,12 @@ void check_physics(Findings& findings) {
   block_load(atoms, block);
   maxwellian_load(atoms, {.temperature = 1.44, .seed = 87287, .remove_drift = true});
   PairScheme scheme(Box(Vector{0., 0., 0.}, Vector{edge, edge, edge}, Boundary::periodic), 2.5);
-  // As scenarios do: the kernels of the instruction set in use.
+  // Use the kernels of the selected instruction set, as scenarios do.
   install_pairs(scheme, *find_law("lennard-jones"), {{"depth", {1}}, {"r0", {std::pow(2, 1.0 / 6)}}}, LawUse::internal,
                 atoms, atoms, scheme.cutoff());
   Simulation simulation(scheme, 0.005);
   simulation.integrate(atoms, Method::leap_frog);
-  scheme.shifted(false);  // the known energy is that of the law as it stands
+  scheme.shifted(false);  // the reference energy is that of the unshifted law
   simulation.check();
   double const size = static_cast<double>(atoms.size());
   double const energy = simulation.measure().potential / size;

@@ -1,4 +1,4 @@
-// bzm export: the trajectory of a run in a format that another program opens.
+// bzm export: writes the trajectory of a run in a format of another program.
 #include <boltzmann/bzm/commands.hpp>
 #include <boltzmann/core/clock.hpp>
 #include <boltzmann/core/error.hpp>
@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The trajectory of a folder, or the file itself.
+/// The trajectory in a folder, or the path itself if it is a file.
 std::string trajectory_of(std::string const& folder) {
   if (fs::is_regular_file(folder)) return folder;
   if (!fs::is_directory(folder)) throw Error("there is no folder '" + folder + "' with a run to export");
@@ -34,7 +34,7 @@ std::string trajectory_of(std::string const& folder) {
 }  // namespace
 
 int export_run(ExportRun const& options) {
-  export_format(options.out);  // before anything else, its mistakes
+  export_format(options.out);  // check the format before anything else
   TrajectoryReader const reader(trajectory_of(options.folder));
   ExportOptions chosen;
   if (!options.frames.empty()) chosen.frames = chosen_frames(options.frames, reader.frames());

@@ -1,4 +1,4 @@
-// bzm stays beside the launcher: mpirun alone would end ranks a second after Ctrl-C, and with another exit status.
+// Starts mpirun and stays its parent. mpirun alone would end ranks a second after Ctrl-C, and with another exit status.
 #include <boltzmann/bzm/launch.hpp>
 #include <boltzmann/bzm/process.hpp>
 #include <boltzmann/core/error.hpp>
@@ -34,15 +34,15 @@ std::string first_line_of_version(std::string const& launcher) {
   return text.substr(0, text.find('\n'));
 }
 
-/// Of one that is not there any more: as a shell has it.
+/// Converts a wait status to an exit status, as a shell does.
 int status_of(int status) { return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status); }
 
-/// The child, in a group of its own: Ctrl-C of a terminal is for bzm.
+/// In the child process: it gets its own process group, so that only bzm receives Ctrl-C of the terminal.
 [[noreturn]] void become(std::vector<std::string> const& words, sigset_t const& signals) {
   setpgid(0, 0);
   prctl(PR_SET_PDEATHSIG, SIGTERM);
   sigprocmask(SIG_SETMASK, &signals, nullptr);
-  if (isatty(STDIN_FILENO) == 1) {  // which only the group of bzm may read
+  if (isatty(STDIN_FILENO) == 1) {  // only the group of bzm may read from the terminal
     int const nothing = open("/dev/null", O_RDONLY);
     dup2(nothing, STDIN_FILENO);
   }
@@ -55,19 +55,19 @@ int status_of(int status) { return WIFEXITED(status) ? WEXITSTATUS(status) : 128
   _exit(2);
 }
 
-/// Still a rank, and no process that has its number since it has ended.
+/// True if the process is still a rank, and not another process with a reused number.
 bool is_rank(int process) {
   std::error_code gone;
   return std::filesystem::read_symlink(fmt::format("/proc/{}/exe", process), gone) == own_path() && !gone;
 }
 
-/// A launcher with its ranks, which signals reach directly: launchers do not forward them reliably, and some end ranks
-/// a second later.
+/// A launcher with its ranks. bzm sends signals to the ranks directly: launchers do not forward them reliably, and some
+/// end ranks a second later.
 struct Launch {
   pid_t launcher;
   bool open_mpi;
   LocalRanks& ranks;
-  int signalled = 0;  // times
+  int signalled = 0;  // number of signals sent
 
   static void send(std::vector<int> const& to, int number) {
     for (int const rank : to)
@@ -83,17 +83,17 @@ struct Launch {
       kill(launcher, SIGKILL);
     } else if (signalled == 2) {
       send(ranks.all(), SIGUSR1);
-      send(found, SIGKILL);  // one signal would not end them
+      send(found, SIGKILL);  // a single SIGTERM would not end them
       kill(launcher, SIGTERM);
     } else if (!ranks.all().empty()) {
-      send(ranks.all(), SIGUSR1);  // they tell the ranks of other machines
+      send(ranks.all(), SIGUSR1);  // each of them forwards it to ranks on other machines
     } else {
-      // Open MPI forwards SIGUSR1, perhaps; a launcher that gets SIGTERM ends all.
+      // Open MPI may forward SIGUSR1. A launcher that receives SIGTERM ends all ranks.
       kill(launcher, open_mpi ? SIGUSR1 : SIGTERM);
     }
   }
 
-  /// Ranks that begin after a signal stop, too.
+  /// Sends the signal also to ranks that have started after it.
   void welcome() {
     auto const found = ranks.read_new();
     if (signalled > 0) send(found, signalled > 1 ? SIGKILL : SIGUSR1);
@@ -108,7 +108,7 @@ struct Launch {
   }
 };
 
-/// The signals that stop a run; SIGHUP not where nohup has it ignored.
+/// The signals that stop a run. SIGHUP is not among them if nohup ignores it.
 sigset_t watched_signals() {
   sigset_t signals;
   sigemptyset(&signals);
@@ -119,7 +119,7 @@ sigset_t watched_signals() {
   return signals;
 }
 
-/// Starts the launcher, passes signals on, and gives the exit status.
+/// Starts the launcher, forwards signals, and returns the exit status.
 int start_and_wait(std::vector<std::string> const& line, bool open_mpi) {
   LocalRanks ranks;
   sigset_t const signals = watched_signals();
@@ -171,10 +171,11 @@ int run_on_ranks(std::vector<std::string> const& words, Ranks const& ranks) {
   setenv("BOLTZMANN_MPI", std::filesystem::absolute(plugin.path).c_str(), 1);
   std::vector<std::string> line{launcher};
   if (open_mpi) {
-    // Where ranks have a processor each, one that waits for a moment (Team) keeps it.
+    // If each rank has a processor of its own, a waiting rank (Team) may keep it busy.
     bool const enough = ranks.hosts.empty() && *ranks.count <= static_cast<int>(std::thread::hardware_concurrency());
     setenv("OMPI_MCA_mpi_yield_when_idle", enough ? "0" : "1", 0);
-    // More ranks than processors are allowed; what it has to say of exit statuses, ranks have said.
+    // Allow more ranks than processors. Suppress the launcher's reports of exit statuses, because the ranks report
+    // them.
     line.insert(line.end(), {"--oversubscribe", "--quiet", "-x", "BOLTZMANN_MPI"});
   }
   if (!ranks.hosts.empty()) line.insert(line.end(), {open_mpi ? "--hostfile" : "-f", ranks.hosts});

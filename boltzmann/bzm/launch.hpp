@@ -1,4 +1,4 @@
-// A command on several ranks: bzm run copper --ranks 4.
+// Runs a command on several ranks: bzm run copper --ranks 4.
 #pragma once
 
 #include <optional>
@@ -7,18 +7,18 @@
 
 namespace boltzmann::bzm {
 
-/// How many processes do a run together.
+/// The number of processes of a run, and their hosts.
 struct Ranks {
   std::optional<int> count;
-  std::string hosts;  ///< a file that says where; empty: here
+  std::string hosts;  ///< a host file; empty: this machine
 };
 
-/// Starts this command, whose words are given without --ranks and --hosts, on so many ranks by the mpirun or mpiexec of
-/// the PATH, and waits. What stops a run (Ctrl-C, SIGTERM, SIGHUP) is handed on; a second one ends all. Gives the exit
-/// status of the ranks. Error if there is no launcher or no plug-in (core/launcher.hpp).
+/// Starts this command, whose words are given without --ranks and --hosts, on these ranks by the mpirun or mpiexec of
+/// the PATH, and waits. Signals that stop a run (Ctrl-C, SIGTERM, SIGHUP) are forwarded; a second one ends all ranks.
+/// Returns the exit status of the ranks. Throws Error if there is no launcher or no plug-in (core/launcher.hpp).
 int run_on_ranks(std::vector<std::string> const& words, Ranks const& ranks);
 
-/// What is found to launch with, in one line; empty: nothing.
+/// The version of the launcher in one line; empty if there is none.
 std::string launcher_version();
 
 }  // namespace boltzmann::bzm

@@ -1,4 +1,4 @@
-// bzm: the command line. Parses, calls a command, and turns every failure into its line and exit status.
+// bzm: the command line. Parses it, calls a command, and turns every failure into its message and exit status.
 #include <boltzmann/bzm/commands.hpp>
 #include <boltzmann/bzm/launch.hpp>
 #include <boltzmann/core/error.hpp>
@@ -54,7 +54,7 @@ std::vector<std::string> option_names(CLI::App const& app) {
   return names;
 }
 
-// An option for each of a picture's.
+// Adds an option for each property of a picture.
 void picture_words(CLI::App* command, PictureWords& words) {
   for (auto const& option : picture_options()) {
     if (option.key == "file") continue;
@@ -70,7 +70,7 @@ void picture_words(CLI::App* command, PictureWords& words) {
   }
 }
 
-// All that a shell can complete.
+// The commands and options for shell completion.
 std::vector<CommandWords> command_words(CLI::App const& app) {
   std::vector<CommandWords> all;
   for (auto const* command : app.get_subcommands({})) {
@@ -86,7 +86,7 @@ std::vector<CommandWords> command_words(CLI::App const& app) {
   return all;
 }
 
-// The first word has to be a command; CLI11 would only say that it is an unexpected argument.
+// Checks that the first word is a command. CLI11 would only report an unexpected argument.
 void check_command(CLI::App const& app, int argc, char** argv) {
   if (argc < 2 || argv[1][0] == '-') return;
   std::string const word = argv[1];
@@ -101,7 +101,7 @@ void check_command(CLI::App const& app, int argc, char** argv) {
   throw Error("unknown command '" + word + "'" + choices_with(hint, names, "there are", "bzm --help"));
 }
 
-// An option that is not there: the nearest one that is.
+// Explains an unknown option by the most similar known one.
 std::string explain(CLI::App const& app, CLI::ParseError const& error, int argc, char** argv) {
   CLI::App const* command = nullptr;
   for (auto const* each : app.get_subcommands({}))
@@ -120,7 +120,7 @@ std::string explain(CLI::App const& app, CLI::ParseError const& error, int argc,
   return fmt::format("{} (bzm {}--help tells more)", text, command ? command->get_name() + " " : "");
 }
 
-/// 1e5 is a number of steps, too.
+/// Accepts 1e5 as a number of steps, too.
 std::string whole_number(std::string& text) {
   double number = 0;
   auto const [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
@@ -132,7 +132,7 @@ std::string whole_number(std::string& text) {
   return "";
 }
 
-/// The commands with their options, and what is to be done.
+/// The commands with their options, and the action of each.
 class CommandLine {
  public:
   CommandLine() {
@@ -164,7 +164,7 @@ class CommandLine {
     if (ranks_.count && !team().alone())
       throw Error("--ranks: a launcher has started several ranks of this already; leave one of them out");
     if (ranks_.count.value_or(1) > 1) return run_on_ranks(words_without_ranks(argc, argv), ranks_);
-    instruction_set();  // a wrong BOLTZMANN_INSTRUCTIONS is said once, not at each law of a scenario
+    instruction_set();  // report a wrong BOLTZMANN_INSTRUCTIONS once, not for each law of a scenario
     return action_();
   }
 
@@ -186,7 +186,7 @@ class CommandLine {
         ->needs(count);
   }
 
-  /// For the ranks themselves.
+  /// The command line for the ranks themselves.
   static std::vector<std::string> words_without_ranks(int argc, char** argv) {
     std::vector<std::string> words;
     for (int i = 1; i < argc; ++i) {
@@ -399,17 +399,17 @@ class CommandLine {
 int main(int argc, char** argv) {
   open_standard_streams();
   hdf5::leave_without_words();
-  std::signal(SIGXFSZ, SIG_IGN);  // a limit on the size of files is an error that can be told, as a full disk is
+  std::signal(SIGXFSZ, SIG_IGN);  // turn a file size limit into an error that can be reported, like a full disk
   std::string const command = argc > 1 ? argv[1] : "";
   bool const by_all = command == "run" || command == "resume" || command == "bench";
   try {
     started_with(argc, argv);
-    if (!by_all) {  // only rank 0 runs these commands
+    if (!by_all) {  // these commands run on rank 0 only
       compare_start_of_ranks();
       if (launched().rank > 0) return 0;
       stay_alone();
     }
-    team();  // ranks above 0 print nothing from here on
+    team();  // initialises MPI; from here on, ranks above 0 print nothing
     return CommandLine().perform(argc, argv);
   } catch (ScenarioErrors const& errors) {
     tell_failure(join(errors.lines, "\n"));
@@ -425,7 +425,7 @@ int main(int argc, char** argv) {
   } catch (std::bad_alloc const&) {
     tell_failure("there is not enough memory for this simulation");
     return 1;
-  } catch (std::filesystem::filesystem_error const& error) {  // a folder that one may not enter
+  } catch (std::filesystem::filesystem_error const& error) {  // for example a folder without permission
     tell_failure(fmt::format("'{}': {}", error.path1().string(), error.code().message()));
     return 2;
   } catch (std::exception const& error) {

@@ -1,4 +1,4 @@
-// bzm new: a small scenario with a comment on every line that one would want to change.
+// bzm new: writes a small scenario with a comment on every line that users often change.
 #include <boltzmann/bzm/commands.hpp>
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/files/text_file.hpp>
@@ -144,7 +144,7 @@ colour = "glow"
 file = "picture.png"
 )toml";
 
-// Dust in a plasma: two species behind a screen, and a law from outside that holds them together.
+// Dust in a plasma: two species with screened interaction, and an external law that confines them.
 constexpr char const* starter_of_law = R"toml(#:schema ./boltzmann.schema.json
 # A scenario of Boltzmann with laws of its own. Change what you like, then
 #   bzm check @name.toml    shows all mistakes, and runs nothing; it samples the laws, too

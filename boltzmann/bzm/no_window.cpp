@@ -1,4 +1,4 @@
-// In place of window.cpp where what the window needs is not installed.
+// Replaces window.cpp if the dependencies of the window are not installed.
 #include <boltzmann/bzm/commands.hpp>
 #include <boltzmann/bzm/run_recording.hpp>
 

@@ -1,4 +1,4 @@
-// posix_spawn, and the quoting of words for people who want to paste them.
+// Starts programs with posix_spawn, and quotes words for a shell.
 #include <boltzmann/bzm/process.hpp>
 #include <boltzmann/core/error.hpp>
 
@@ -35,8 +35,8 @@ int wait_for(pid_t process) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
-/// Runs a program, and calls heard(piece) with what it writes to this descriptor; of standard output it is all that is
-/// heard of the program.
+/// Runs a program and calls `heard` with each piece that it writes to this descriptor. If that is standard output,
+/// standard error is discarded.
 template <class Heard>
 int run_heard(std::vector<std::string> const& words, int descriptor, Heard const& heard) {
   std::array<int, 2> ends{};

@@ -32,7 +32,7 @@ Output output_of(std::string const& out) {
               "' ends in none of .png, .svg, .pdf (pictures), .mp4, .webm, .gif (movies) or / (numbered pictures)");
 }
 
-// A folder that goes away with all that is in it.
+// A folder that is removed with its contents by the destructor.
 class TemporaryFolder {
  public:
   TemporaryFolder() {
@@ -53,7 +53,7 @@ class TemporaryFolder {
   std::string path_;
 };
 
-/// All frames, with a line on a terminal that counts them.
+/// Writes all frames; on a terminal, a line counts them.
 void write_frames(StoredPictures& pictures, std::string const& folder, FigureOptions const& paper) {
   bool const terminal = isatty(STDERR_FILENO) == 1;
   pictures.write_all(folder, paper, [&](std::int64_t done) {

@@ -1,4 +1,4 @@
-// bzm run, bzm resume, bzm check: a scenario becomes a folder of results.
+// bzm run, bzm resume, bzm check: run a scenario into a folder of results.
 #include <boltzmann/bzm/commands.hpp>
 #include <boltzmann/bzm/run_recording.hpp>
 #include <boltzmann/bzm/waiting_line.hpp>
@@ -23,8 +23,8 @@
 namespace boltzmann::bzm {
 namespace {
 
-/// Whether energies should be finite now: [minimise] may still have to make influences so. Energies of very many particles
-/// take long, and are looked at when the run begins.
+/// True if energies should be finite now. With [minimise], influences may still diverge. Energies of very many
+/// particles take long, and are checked when the run starts.
 bool energies_can_be_checked(Simulation const& simulation) {
   constexpr std::size_t most = 100'000;
   std::size_t particles = 0;
@@ -41,7 +41,7 @@ void print_heading(ScenarioSimulation const& scenario, std::string const& folder
   std::fflush(stdout);
 }
 
-/// Prints notes on unused parts of files, and warnings of empty groups. Warnings are printed with --quiet, too.
+/// Prints notes on unused parts of files, and warnings of empty groups. Warnings are printed even with --quiet.
 void print_notes(ScenarioSimulation const& scenario, bool quiet) {
   if (!team().first()) return;
   for (auto const& line : scenario.notes)
@@ -52,7 +52,7 @@ void refuse_in_window(std::optional<double> const& hours, WindowRun const& windo
   if (hours && window.open) throw Error("--hours is for runs without a --window, where somebody may pause and go on");
 }
 
-/// Rank 0 alone has a standard input.
+/// Reads the scenario on rank 0, which alone has a standard input, and broadcasts it.
 ScenarioText read_on_all(std::string const& name) {
   if (name != "-") return read_scenario(find_scenario(name));
   ScenarioText text;
@@ -124,8 +124,8 @@ int run(RunOptions const& options) {
 
 namespace {
 
-/// Whether the folder has a scenario, but was left before its first checkpoint was there. Error if it holds results of
-/// later steps, which a new start would lose.
+/// True if the folder has a scenario, but its run was stopped before its first checkpoint. Throws Error if it holds
+/// results of later steps, which a new start would lose.
 bool begun_without_checkpoint(std::string const& folder) {
   namespace fs = std::filesystem;
   for (auto const* file : {"/checkpoint.h5", "/checkpoint.h5.previous"})
@@ -134,7 +134,7 @@ bool begun_without_checkpoint(std::string const& folder) {
   bool later = false;
   try {
     later = read_csv(folder + "/diagnoses.csv").columns.at(0).size() > 1;
-  } catch (std::exception const&) {  // none, or its first row is half written
+  } catch (std::exception const&) {  // there is no table, or its first row is incomplete
   }
   try {
     later = later || TrajectoryReader(folder + "/trajectory.h5").frames() > 1;
@@ -148,7 +148,7 @@ bool begun_without_checkpoint(std::string const& folder) {
   return true;
 }
 
-/// The run of a folder that has no checkpoint yet.
+/// Starts the run of a folder that has no checkpoint yet.
 int start_again(ResumeOptions const& options, WallTime const& wall) {
   std::string const path = options.folder + "/scenario.toml";
   auto const scenario = parse_scenario(read_scenario(path).text, path, {{}, {}, {}, options.threads});
@@ -226,7 +226,7 @@ int check(std::string const& name, Overrides const& overrides) {
   print_warnings(*scenario->simulation, {.quiet = true});
   for (auto const& line : planned_warnings(*recording, scenario->steps)) fmt::print(stderr, "{}\n", line);
   std::size_t particles = 0, bytes = 0;
-  for (auto const& scheme : scenario->schemes) bytes += scheme->bytes();  // now that lists and meshes are there
+  for (auto const& scheme : scenario->schemes) bytes += scheme->bytes();  // lists and meshes exist only now
   for (auto const& ensemble : scenario->ensembles) {
     particles += ensemble->size();
     bytes += ensemble->size() * (ensemble->stride() + ensemble->influence_size()) * sizeof(double);

@@ -1,4 +1,4 @@
-// A run of the command, with its progress or in a window.
+// A run of `bzm run`, with its progress line or in a window.
 #pragma once
 
 #include <boltzmann/bzm/commands.hpp>
@@ -7,11 +7,11 @@
 
 namespace boltzmann::bzm {
 
-/// Runs to the end, or as somebody at a window wants, and gives the exit status.
+/// Runs to the end, or under control of the window, and returns the exit status.
 int run_recording(ScenarioSimulation const& scenario, Recording& recording, std::int64_t steps, std::int64_t planned,
                   bool quiet, WallTime const& wall, WindowRun const& window = {});
 
-/// Runs as somebody at a window wants.
+/// Runs under control of the window.
 RunReport run_in_window(ScenarioSimulation const& scenario, Recording& recording, std::int64_t steps,
                         WindowRun const& options, bool quiet);
 

@@ -1,4 +1,4 @@
-// bzm list and bzm show: what there is.
+// bzm list and bzm show: the names and pages of the catalogue.
 #include <boltzmann/bzm/commands.hpp>
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/scenario/catalogue_pages.hpp>
@@ -12,7 +12,7 @@
 namespace boltzmann::bzm {
 
 int list(std::string const& kind, bool names_only) {
-  if (!kind.empty()) listed(kind);  // says if there is none
+  if (!kind.empty()) listed(kind);  // throws if there is no such kind
   bool first = true;
   for (auto const& one : listed_kinds()) {
     if (kind.empty() ? one == "units" : kind != one) continue;

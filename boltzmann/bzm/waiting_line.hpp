@@ -1,4 +1,4 @@
-// Waiting line: says what a command does while it takes long, before there are steps to count.
+// Waiting line: shows what a command is doing during a long preparation, before there are steps to count.
 #pragma once
 
 #include <boltzmann/core/clock.hpp>
@@ -17,8 +17,8 @@
 
 namespace boltzmann::bzm {
 
-/// After four seconds a line on standard error says what is done; in a terminal it counts the seconds, and goes away at the
-/// end.
+/// After four seconds, a line on standard error shows the activity. On a terminal it counts the seconds, and is erased
+/// at the end.
 class WaitingLine {
  public:
   explicit WaitingLine(bool shown, std::chrono::milliseconds patience = std::chrono::seconds(4)) : patience_(patience) {
@@ -35,7 +35,7 @@ class WaitingLine {
   WaitingLine(WaitingLine const&) = delete;
   WaitingLine& operator=(WaitingLine const&) = delete;
 
-  /// Sets the activity that the line names from now on.
+  /// Sets the activity that the line shows from now on.
   void doing(std::string what) {
     std::lock_guard const lock(mutex_);
     what_ = std::move(what);

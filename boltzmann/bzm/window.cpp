@@ -1,4 +1,4 @@
-// bzm window, and bzm run --window: the gallery, a stored run, a run that goes on, on a page.
+// bzm window, and bzm run --window: the page of the gallery, of a stored run, or of a run in progress.
 #include <boltzmann/bzm/commands.hpp>
 #include <boltzmann/bzm/run_recording.hpp>
 #include <boltzmann/core/team.hpp>
@@ -48,7 +48,7 @@ std::string free_folder(std::string const& name) {
   return folder;
 }
 
-// How it ended, for the gallery.
+// Runs the choice of the gallery. Returns a text on how the run ended, for the gallery.
 std::string run_choice(Gallery const& gallery, GallerySource::Choice const& choice, Clients& clients) {
   try {
     auto const scenario = gallery.load(choice.name, choice.set);
@@ -80,7 +80,7 @@ int gallery(std::uint16_t port) {
   return 0;
 }
 
-/// Shows a stored run, and announces it if told; true if a signal ended it.
+/// Shows a stored run, and announces its address if `announced` is set. Returns true if a signal ended it.
 bool show_run(std::string const& folder, Clients& clients, bool announced = false) {
   StoredReplay stored(folder);
   std::optional<Announcement> announcement;

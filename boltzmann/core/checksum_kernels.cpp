@@ -1,7 +1,7 @@
-// The kernel of checksums: so fast that memory is what it waits for.
+// The kernel of checksums; its speed is limited by memory.
 //
-// Each lane adds a number, as an integer, and turns its sum by 29 bits: as that is odd, what two numbers change meets in
-// no bit again before 64 others have been added. Lanes are then multiplied into one.
+// Each lane adds a number, as an integer, and rotates its sum by 29 bits. As 29 is odd, the changes of two numbers meet
+// in no bit again before 64 others have been added. Finally the lanes are combined by multiplication.
 #include <boltzmann/core/checksum_kernels.hpp>
 #include <boltzmann/core/kernel_unit.hpp>
 #include <boltzmann/core/pack.hpp>

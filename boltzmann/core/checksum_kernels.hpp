@@ -8,8 +8,8 @@
 
 namespace boltzmann {
 
-/// The same for every instruction set. It tells changes of any number of bits, signs and order with all but certainty,
-/// but is no guard against somebody who looks for two alike.
+/// Gives the same checksum on every instruction set. It detects accidental changes of bits, signs and order, but is not
+/// a cryptographic hash.
 using ChecksumKernel = std::uint64_t (*)(double const* numbers, std::size_t count);
 
 template <InstructionSet set>

@@ -1,4 +1,4 @@
-// Clock: how long things take.
+// Clock: measures elapsed time.
 #pragma once
 
 #include <chrono>

@@ -1,4 +1,4 @@
-// Compression: those of a register's 32-bit lanes for which a condition holds, stored one after the other.
+// Compression: stores the 32-bit lanes of a register for which a condition holds one after the other.
 #pragma once
 
 #include <boltzmann/core/pack.hpp>
@@ -76,7 +76,7 @@ template <int W>
 }
 
 namespace detail {
-/// For each set of W lanes the numbers of those that are in it, in order.
+/// For each set of W lanes: the numbers of its lanes, in order.
 template <int W>
 struct SelectedLanes {
   std::uint8_t lane[1 << W][W];
@@ -93,7 +93,7 @@ template <int W>
 constexpr SelectedLanes<W> SelectedLanes<W>::table{};
 }  // namespace detail
 
-/// Those of the W words whose bit is set, in order; W words are written at `to`, the rest of them without meaning.
+/// Stores those of the W words whose bit is set, in order. All W words at `to` are written; the rest have no meaning.
 template <int W>
 [[gnu::always_inline]] inline void store_selected(std::uint32_t* to, LaneWords<W> words, LaneBits bits) {
 #if defined(__AVX512VL__)

@@ -5,8 +5,7 @@
 
 namespace boltzmann {
 
-/// Throws Error: an exponent has left -127..127. In a constant expression the call doesn't compile, which is the same
-/// answer.
+/// Throws Error: an exponent has left -127..127. In a constant expression the call does not compile.
 [[noreturn]] void refuse_dimension_exponent(int exponent);
 
 /// The exponents of a physical dimension: {.length = 1, .time = -1} is a velocity. A plain value, usable as a template
@@ -33,7 +32,7 @@ struct Dimension {
             exponent(a.charge * n)};
   }
 
-  /// Whether every exponent is even, so that a square root has a dimension.
+  /// True if every exponent is even, so that a square root has a dimension.
   constexpr bool is_square() const {
     return length % 2 == 0 && mass % 2 == 0 && time % 2 == 0 && temperature % 2 == 0 && charge % 2 == 0;
   }
@@ -54,7 +53,7 @@ struct Dimension {
 /// "length^2 mass time^-2"; "1" for a pure number.
 std::string to_string(Dimension);
 
-/// "energy", "length", "velocity", ...; "pure number"; what to_string says where the dimension has no name of its own.
+/// "energy", "length", "velocity", ...; "pure number"; the text of to_string if the dimension has no name of its own.
 std::string name_of(Dimension);
 
 namespace dimensions {

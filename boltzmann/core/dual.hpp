@@ -1,11 +1,12 @@
-// Numbers with derivatives: what is computed of the separation r of two particles knows its own gradient with respect
-// to r (automatic differentiation, forward mode). Laws that are written as an energy stand on it: laws/by_energy.hpp.
+// Numbers with derivatives: a number that is computed from the separation r of two particles carries its gradient with
+// respect to r (automatic differentiation, forward mode). Laws that are written as an energy use it:
+// laws/by_energy.hpp.
 //
-// Most energies depend on r.r alone. So a derivative is kept as one number along the separation, and gets D further
-// ones only where a law looks at components of r:
+// Most energies depend on r.r alone. So a derivative is one number along the separation. It has D further numbers only
+// if a law uses components of r:
 //   Radial       gradient = 2 slope r
 //   Anisotropic  gradient = 2 slope r + rest
-// Every operation is written once, for both of them and for plain numbers, whose derivative is `Flat`: nothing at all.
+// Every operation is written once for both kinds and for plain numbers, whose derivative is the empty struct `Flat`.
 #pragma once
 
 #include <boltzmann/core/pack.hpp>
@@ -46,7 +47,7 @@ struct Anisotropic {
   }
 };
 
-// What the rules of differentiation need of derivatives: sums, differences, multiples, and select().
+// The operations on derivatives that the rules of differentiation need: sums, differences, multiples, and select().
 namespace detail {
 
 template <class Real>
@@ -153,7 +154,7 @@ struct DualTraits<Dual<R, Derivative>> {
 template <class T>
 concept AnyDual = DualTraits<T>::is_dual;
 
-/// The plain number of an operation on A and B, one of which is a Dual.
+/// The plain number type of an operation on A and B, one of which is a Dual.
 template <class A, class B, bool first = AnyDual<A>>
 struct NumberOf {
   using type = typename DualTraits<A>::Real;
@@ -272,7 +273,7 @@ auto operator!=(A const& a, B const& b) {
   return detail::value_of<Real>(a) != detail::value_of<Real>(b);
 }
 
-/// a where the condition holds, else b, with the derivative of the one that is taken.
+/// a where the condition holds, else b, with the derivative of the selected one.
 template <class Condition, class A, class B>
 requires detail::DualOperands<A, B>
 auto select(Condition const& condition, A const& a, B const& b) {
@@ -302,7 +303,7 @@ Dual<Real, Derivative> cube(Dual<Real, Derivative> const& x) {
   Real const x2 = x.value * x.value;
   return detail::chain(x, Real(x2 * x.value), Real(3.0 * x2));
 }
-/// At zero, where it has no slope, it is given the slope zero: the distance of two particles at one place has no
+/// At zero, where sqrt has no slope, the slope is set to zero: the distance of two coincident particles has no
 /// direction.
 template <class Real, class Derivative>
 Dual<Real, Derivative> sqrt(Dual<Real, Derivative> const& x) {
@@ -358,14 +359,14 @@ template <class Real, class Derivative>
 Dual<Real, Derivative> exponential_integral(Dual<Real, Derivative> const& x) {
   return detail::chain(x, Real(exponential_integral(x.value)), Real(-exp(-x.value) / x.value));
 }
-/// At zero, where it has no slope, it is given the slope zero, that of both its sides in the mean.
+/// At zero, where abs has no slope, the slope is set to zero, the mean of both sides.
 template <class Real, class Derivative>
 Dual<Real, Derivative> abs(Dual<Real, Derivative> const& x) {
   Real const sign = select(x.value < 0.0, Real(-1.0), select(x.value > 0.0, Real(1.0), Real(0.0)));
   return detail::chain(x, Real(abs(x.value)), sign);
 }
 
-/// x^y. Of the two, those that are plain numbers cost no derivative.
+/// x^y. An argument that is a plain number costs no derivative.
 template <class A, class B>
 requires detail::DualOperands<A, B>
 auto pow(A const& a, B const& b) {
@@ -422,14 +423,14 @@ struct VectorTraits<Displacement<D, Real>> {
   using Component = typename Displacement<D, Real>::Component;
 };
 
-/// Vectors of which one has derivatives, and that vector.hpp doesn't know together.
+/// Pairs of vectors that vector.hpp does not combine, one of which has derivatives.
 template <class A, class B>
 concept VectorOperands = VectorTraits<A>::is_vector && VectorTraits<B>::is_vector &&
                          (VectorTraits<A>::has_derivative || VectorTraits<B>::has_derivative) &&
                          (VectorTraits<A>::is_displacement || VectorTraits<B>::is_displacement ||
                           !std::is_same_v<typename VectorTraits<A>::Component, typename VectorTraits<B>::Component>);
 
-/// Any of them as a vector of `Component`.
+/// Any such vector as a vector of `Component`.
 template <class Component, class A>
 auto components_of(A const& a) {
   constexpr int D = A::dimension;
@@ -510,7 +511,7 @@ Dual<Real, Radial<Real>> dot(Displacement<D, Real> const& a, Displacement<D, Rea
   Real const factor = a.factor * b.factor;
   return {factor * dot(a.r, a.r), {factor}};
 }
-/// With a vector that doesn't change.
+/// The dot product with a constant vector.
 template <int D, class Real, class Number>
 requires std::convertible_to<Number, Real>
 auto dot(Displacement<D, Real> const& a, Vector<D, Number> const& b) {
@@ -530,7 +531,7 @@ Dual<Real, Radial<Real>> magnitude(Displacement<D, Real> const& a) {
   return sqrt(dot(a, a));
 }
 
-// A number that changes acts on every component of a vector; vector.hpp has those of vectors of such numbers.
+// A Dual acts on every component of a vector; vector.hpp has the products of vectors of Duals.
 namespace detail {
 template <class A, class S>
 concept ScaledByDual = AnyDual<S> && VectorTraits<A>::is_vector &&

@@ -12,11 +12,11 @@ namespace boltzmann {
 
 struct Element {
   std::string_view symbol;
-  double mass;  ///< in amu; 0: it has no stable isotope, so that no standard value exists
+  double mass;  ///< in amu; 0: no stable isotope, so no standard value exists
 };
 
-/// The element of a symbol ("Cu"; "CA" is none, for files call carbon so), or of an atomic number ("29"); null if there is
-/// none. "D" and "T" are isotopes of hydrogen.
+/// The element of a symbol ("Cu") or of an atomic number ("29"); null if there is none. "CA" is none, because files use
+/// it for the alpha carbon. "D" and "T" are isotopes of hydrogen.
 Element const* find_element(std::string_view word);
 /// All symbols, by atomic number.
 std::vector<std::string> element_symbols();

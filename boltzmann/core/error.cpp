@@ -14,7 +14,7 @@ namespace {
 
 char lower(char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); }
 
-/// Letters that are put in, left out or other ones, and neighbours that have changed places.
+/// Insertions, deletions, substitutions and swaps of neighbouring letters.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> row(b.size() + 1), above, above_that;
   std::iota(row.begin(), row.end(), 0U);
@@ -38,7 +38,7 @@ std::string nearest(std::string_view word, std::span<std::string const> candidat
   for (auto const& candidate : candidates) {
     auto const [shorter, longer] = std::minmax({word.size(), candidate.size()});
     std::size_t const most = std::min(longer / 3 + 1, longer / 2);  // short words have half of their letters in common
-    if (longer - shorter > most || longer - shorter >= best_distance) continue;  // it is as far at least
+    if (longer - shorter > most || longer - shorter >= best_distance) continue;  // at least as far
     std::size_t const distance = edit_distance(word, candidate);
     if (distance < best_distance && distance <= most) {
       best = candidate;
@@ -113,7 +113,7 @@ std::string quoted(std::string_view text) {
   constexpr std::size_t longest = 40;
   std::string shown(text.substr(0, longest));
   for (std::size_t k = 0; k < shown.size();) {
-    // Bytes behind the end of `shown` belong to a letter that is cut; they are dropped below.
+    // Bytes beyond the end of `shown` belong to a letter that is cut; they are dropped below.
     std::size_t const count = letter_bytes(text.substr(k));
     unsigned char const letter = static_cast<unsigned char>(shown[k]);
     if (count == 0 || letter < ' ' || letter == 127) shown[k] = '?';

@@ -1,4 +1,4 @@
-// Errors: what a user did wrong, and what the physics did wrong, each as one readable line.
+// Errors: mistakes in the input and failures of the physics, each as one readable line.
 #pragma once
 
 #include <span>
@@ -8,7 +8,7 @@
 
 namespace boltzmann {
 
-/// The user's input can't be used. The message is one line: what was found, where, what is allowed. Exit status 2 of
+/// The user's input is invalid. The message is one line: what was found, where, what is allowed. Exit status 2 of
 /// `bzm`.
 struct Error : std::runtime_error {
   using std::runtime_error::runtime_error;
@@ -38,11 +38,10 @@ std::string choices_with(std::string_view hint, std::span<std::string const> nam
 /// The greatest number of names in a message. Tests that compare all names raise it.
 inline std::size_t most_names = 8;
 
-/// A text of somebody's file for a message, without its quotation marks: 40 letters of it at most, "?" for what can't
-/// be printed.
+/// A text of a user's file for a message, without its quotation marks: at most 40 letters, "?" for unprintable bytes.
 std::string quoted(std::string_view text);
 
-/// "a, b, c": the allowed words for a message; of very many only the first ("a, b and 97 more").
+/// "a, b, c": the allowed words for a message; of a long list only the first ("a, b and 97 more").
 std::string some_of(std::span<std::string const> words);
 /// "a, b, c", all of them.
 std::string join(std::span<std::string const> words, std::string_view separator = ", ");

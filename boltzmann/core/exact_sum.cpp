@@ -1,4 +1,4 @@
-// Digits of an exact sum: how numbers come into them, and the double that they are.
+// Digits of an exact sum: depositing numbers, and converting digits to a double.
 #include <boltzmann/core/exact_sum.hpp>
 #include <boltzmann/core/exact_sum_kernels.hpp>
 #include <boltzmann/core/kernel_dispatch.hpp>
@@ -16,7 +16,7 @@ constexpr std::size_t few = 8;  // not worth splitting
 
 }  // namespace
 
-/// Sets digits up to these ends.
+/// Extends the range of set digits to these ends.
 void ExactSum::Digits::reach(std::size_t from, std::size_t to) {
   if (low > high) {
     low = from;
@@ -28,7 +28,7 @@ void ExactSum::Digits::reach(std::size_t from, std::size_t to) {
   while (high < to) word[++high] = 0;
 }
 
-/// A finite number is m 2^(p - 1074), m of 53 bits: from bit p on they are bits of three digits.
+/// A finite number is m 2^(p - 1074) with m of 53 bits: from bit p on it covers bits of three digits.
 void ExactSum::Digits::deposit(double x) {
   if (!std::isfinite(x)) {
     ++word[std::isnan(x) ? nan : x > 0 ? plus : minus];
@@ -59,7 +59,7 @@ void ExactSum::Digits::add(Digits const& other) {
   if (deposits >= most_deposits) carry();
 }
 
-/// A multiple of split_unit.
+/// `count` is a multiple of split_unit.
 void ExactSum::Digits::take(double const* numbers, std::size_t count) {
   static SplitKernel const split = for_instruction_set([](auto set) { return split_kernel<decltype(set)::value>(); });
   double rest[split_most];
@@ -74,7 +74,7 @@ void ExactSum::Digits::take(double const* numbers, std::size_t count) {
   for (double const x : std::span(numbers, count)) deposit(x);
 }
 
-/// Afterwards digits are 0 to 2^32 - 1, but the highest, which has the sign of the sum and no larger a magnitude.
+/// Afterwards all digits are 0 to 2^32 - 1, except the highest, which has the sign of the sum and no larger magnitude.
 void ExactSum::Digits::carry() {
   for (std::size_t d = low; d < high; ++d) {
     word[d + 1] += word[d] >> 32U;  // rounds down
@@ -88,7 +88,7 @@ void ExactSum::Digits::carry() {
   deposits = 1;
 }
 
-/// Turns their sign if it is negative.
+/// Changes the sign of the digits if the sum is negative.
 double ExactSum::Digits::value() {
   constexpr double infinite = std::numeric_limits<double>::infinity();
   if (word[nan] > 0 || (word[plus] > 0 && word[minus] > 0)) return std::numeric_limits<double>::quiet_NaN();
@@ -103,7 +103,8 @@ double ExactSum::Digits::value() {
   std::size_t top = high;
   while (top > low && word[top] == 0) --top;
   if (top == digit_count - 1) return negative ? -infinite : infinite;
-  // 64 bits from the first one that is set; the last is set, too, if any below is: then they are rounded as all of them.
+  // 64 bits from the first one that is set. The last bit is set, too, if any lower bit is: then they round as all bits
+  // would.
   auto const at = [&](std::size_t below) {
     return top >= low + below ? static_cast<std::uint64_t>(word[top - below]) : std::uint64_t{0};
   };
@@ -149,7 +150,7 @@ std::span<std::int64_t, ExactSum::words> ExactSum::digits() {
   take_waiting();
   digits_.carry();
   digits_.reach(0, digit_count - 1);
-  digits_.deposits = most_deposits - 1;  // of many ranks they may be as large as that
+  digits_.deposits = most_deposits - 1;  // sums over many ranks may be as large as that
   return digits_.word;
 }
 

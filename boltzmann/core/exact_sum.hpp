@@ -1,4 +1,4 @@
-// ExactSum: the sum of doubles without any rounding error but one, in whatever order and however they are shared out.
+// ExactSum: the exact sum of doubles, rounded once, independent of the order of terms and of their distribution.
 #pragma once
 
 #include <boltzmann/core/threads.hpp>
@@ -14,12 +14,12 @@
 namespace boltzmann {
 
 /// Adds numbers exactly; value() is their sum, rounded once to the nearest double (ties to even). So it has the same
-/// bits for any order of the terms, and for terms that were shared out over several sums which are then added. Infinite
-/// terms and NaN give what IEEE addition gives. Room for 2^60 terms. No memory is allocated; an ExactSum has 2.6 kB.
+/// bits for any order of the terms, also if they were distributed over several sums that are then added. Infinite terms
+/// and NaN give what IEEE addition gives. Room for 2^60 terms. No memory is allocated; an ExactSum has 2.6 kB.
 ///
 /// The sum is a whole number of 2^-1074, the least double, kept in digits of 32 bits each in an integer of 64, so that
-/// carries may wait (Kulisch's long accumulator). Terms wait in a block, which is split into few numbers whose sum is
-/// the same: exact_sum_kernels.cpp.
+/// carries may wait (Kulisch's long accumulator). Terms are buffered in a block, which is split into a few numbers of
+/// the same sum: exact_sum_kernels.cpp.
 class ExactSum {
  public:
   static constexpr std::size_t block = 256;
@@ -28,23 +28,22 @@ class ExactSum {
     waiting_[count_] = x;
     if (++count_ == block) take_waiting();
   }
-  /// All of these.
+  /// Adds all these numbers.
   void add(std::span<double const> numbers);
-  /// All terms of another sum.
+  /// Adds all terms of another sum.
   void add(ExactSum const& other);
   double value() const;
 
   /// 68 digits, the lowest first, and how many terms were inf, -inf and NaN.
   static constexpr std::size_t words = 71;
-  /// What is to be added, word by word, to the words of other sums (Team::sum): afterwards this has all their terms.
-  /// None is beyond 2^32 in magnitude at first, so that no sum of those of 2^29 ranks overflows.
+  /// The words to add to the words of other sums (Team::sum). Afterwards this sum has the terms of all. At first no
+  /// word is beyond 2^32 in magnitude, so that a sum over 2^29 ranks does not overflow.
   std::span<std::int64_t, words> digits();
 
  private:
   static constexpr std::size_t digit_count = 68, plus = 68, minus = 69, nan = 70;
 
-  /// The number that the digits are. Those from low to high have been set, the others are zero: sums of few numbers
-  /// know few.
+  /// The number as digits. Only the digits from low to high are set; the others are zero and need not be touched.
   struct Digits {
     std::array<std::int64_t, words> word;
     std::int64_t deposits = 0;  ///< since the last carry: each changes a digit by less than 2^33
@@ -62,18 +61,18 @@ class ExactSum {
   void take_waiting();
 
   Digits digits_;
-  std::size_t count_ = 0;  ///< of those that wait
+  std::size_t count_ = 0;  ///< buffered terms
   alignas(64) double waiting_[block];
 };
 
-/// What several threads add up, each in a sum of its own first: whichever comes first, the bits are the same.
+/// A sum of several threads, each of which first adds up its own terms. The bits do not depend on the order of threads.
 class SharedSum {
  public:
   void add(ExactSum const& part) {
     std::lock_guard const lock(one_at_a_time_);
     sum_.add(part);
   }
-  // When all have added theirs.
+  // Valid when all threads have added theirs.
   double value() const { return sum_.value(); }
   ExactSum& total() { return sum_; }
 
@@ -107,7 +106,7 @@ void add_terms(std::array<ExactSum, K>& sums, std::size_t size, int threads, Fun
   });
 }
 
-/// Adds K columns that stand side by side: number K i + k to sum k.
+/// Adds K interleaved columns: number K i + k to sum k.
 template <std::size_t K>
 void add_columns(std::array<ExactSum, K>& sums, std::span<double const> numbers, int threads) {
   add_terms(sums, numbers.size() / K, threads, [&](std::size_t i, std::array<double, K>& terms) {

@@ -15,7 +15,7 @@
 namespace boltzmann {
 namespace detail {
 
-/// Of all lanes, by an operation that may take them in any order.
+/// Reduces all lanes by an operation that allows any order.
 template <int W, class Operation>
 [[gnu::always_inline]] inline double over_lanes(Pack<double, W> a, Operation const& operation) {
   double lane[W];
@@ -40,7 +40,7 @@ template <int W>
   using Number = Pack<double, W>;
   constexpr int chains = 8 / W < 2 ? 2 : 8 / W < 4 ? 8 / W : 4;
   static_assert(split_unit % (chains * W) == 0);
-  Number largest[chains];  // what is NaN does not count
+  Number largest[chains];  // NaN is ignored
   for (auto& of_chain : largest) of_chain = 0.0;
   for (std::size_t i = 0; i < task.count; i += chains * W)
     for (int c = 0; c < chains; ++c) largest[c] = max(largest[c], abs(load_pack<W>(task.numbers + i + c * W)));
@@ -48,7 +48,7 @@ template <int W>
   double const most = largest_lane<W>(largest[0]);
   task.largest_rest = std::numeric_limits<double>::quiet_NaN();
   if (!(most < 0x1p1000)) return;
-  // The power of two above the largest, times split_most: of the exponent's bits.
+  // The power of two above the largest number, times split_most, from the bits of the exponent.
   constexpr int margin = std::countr_zero(split_most);
   double const above = std::bit_cast<double>((std::bit_cast<std::uint64_t>(most) & 0x7ff0000000000000U) +
                                              (std::uint64_t{margin + 1} << 52U));

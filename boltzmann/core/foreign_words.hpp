@@ -1,4 +1,4 @@
-// Terms of other programs that are no single word of Boltzmann: what Boltzmann has instead, or that it has nothing.
+// Terms of other programs that are not one word of Boltzmann: the counterpart in Boltzmann, or that there is none.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@ struct ForeignTerm {
 
 /// Programs: LAMMPS, GROMACS, HOOMD-blue, OpenMM, REBOUND, PySPH, WarpX.
 inline constexpr std::array foreign_terms{
-    // ---- what acts between the steps ----
+    // ---- actions between the steps ----
     ForeignTerm{"thermostat|thermostats|heat_bath|temp/berendsen|temp/csvr|temp/csld|temp/rescale|tcoupl|tau_t|ref_t|"
                 "constantvolume|langevinintegrator|mttk|bussi",
                 "a thermostat is a table of its own: [[dissipation]] with kind = \"nose-hoover\", "
@@ -60,7 +60,7 @@ inline constexpr std::array foreign_terms{
                 "bonds are listed by `bonds` of [[ensembles]] and act by [[influences]] with connect = \"bonds\", "
                 "angles or dihedrals"},
     ForeignTerm{"tree|treecode|barnes-hut|fmm|gravity_tree", "long sums over a tree are the table [multipole]"},
-    // ---- setting up and running ----
+    // ---- set-up and runs ----
     ForeignTerm{"create_atoms|create_box|region|read_data|include|topology|gro_file",
                 "particles are placed by `load` of [[ensembles]]: kind = \"block\", \"random\", \"file\"; bzm list "
                 "loaders"},
@@ -88,7 +88,7 @@ inline constexpr std::array foreign_terms{
     ForeignTerm{"cells_per_dimension|n_cell|number_of_cells|particle_shape|shape_factor|deposition|poisson|"
                 "electrostatic|multigrid",
                 "fields on a mesh are the table [mesh] with cells and assignment"},
-    // ---- what there is not ----
+    // ---- not available ----
     ForeignTerm{"granular|gran/hooke|gran/hertz|gran/hooke/history|gran/hertz/history|hertz|hooke/history|dem|ligghts",
                 "Boltzmann has no granular contacts with friction and history; a typed law can repel and damp"},
     ForeignTerm{"meam|meam/c|tersoff|airebo|rebo|reaxff|reax/c|reax|comb|comb3|bop|edip|adp|snap|mliap|pace|deepmd|"

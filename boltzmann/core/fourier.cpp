@@ -1,4 +1,4 @@
-// FFTW behind one interface: its planner runs in one thread at a time, its plans in any number.
+// FFTW behind one interface: its planner runs in one thread at a time, its plans in several.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/fourier.hpp>
 

@@ -8,7 +8,7 @@ namespace boltzmann {
 
 struct GzipBuffer::State {
   z_stream stream{};
-  bool inside = true;  ///< a member has begun and has not ended
+  bool inside = true;  ///< within a member
 };
 
 GzipBuffer::GzipBuffer(std::string path)

@@ -1,4 +1,4 @@
-// Reading what gzip has compressed, as a stream.
+// Reads files that gzip has compressed, as a stream.
 #pragma once
 
 #include <array>

@@ -66,7 +66,7 @@ double log_complement(double y) { return y > -0.7 ? std::log(-std::expm1(y)) : s
 /// ln of the density t^(a - 1) e^-t / Gamma(a), times x.
 double log_slope(double a, double x) { return log_poisson(a, x) + std::log(a); }
 
-/// Where to start: the cube of Wilson and Hilferty, or 0 where it fails.
+/// The initial guess: the cube of Wilson and Hilferty, or 0 where it fails.
 double wilson_hilferty(double a, double deviations) {
   double const root = 1 - 1 / (9 * a) + deviations / (3 * std::sqrt(a));
   return root > 0 ? a * root * root * root : 0;

@@ -1,4 +1,4 @@
-// Files that are named: regular ones only, line by line.
+// Input files: regular ones only, line by line.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/gzip_stream.hpp>
 #include <boltzmann/core/input_file.hpp>
@@ -12,7 +12,7 @@
 namespace boltzmann {
 namespace {
 
-/// A stream that owns its buffer, and throws what the buffer throws.
+/// A stream that owns its buffer, and rethrows exceptions of the buffer.
 struct GzipStream final : std::istream {
   explicit GzipStream(std::string const& path) : std::istream(nullptr), buffer(path) {
     rdbuf(&buffer);
@@ -66,7 +66,7 @@ bool read_line(std::istream& file, std::string& line, std::string const& path) {
     auto const got = static_cast<std::size_t>(file.gcount());
     if (file.bad()) throw Error("'" + path + "' can't be read");
     bool const ended = file.eof(), goes_on = file.fail() && got == part.size() - 1;
-    line.append(part.data(), ended || goes_on ? got : got - 1);  // the end of the line is among them
+    line.append(part.data(), ended || goes_on ? got : got - 1);  // includes the end of the line
     if (line.size() > longest) throw Error("'" + path + "' has a line of more than 1 MB: it is no file of text");
     if (ended) return !line.empty();
     if (!goes_on) return true;

@@ -1,4 +1,4 @@
-// Asks the processor, then the environment.
+// Queries the processor, then the environment.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/instruction_set.hpp>
 
@@ -30,7 +30,7 @@ namespace {
 bool can_run(InstructionSet set) {
 #if defined(__x86_64__)
   __builtin_cpu_init();
-  unsigned a = 0, b = 0, basic = 0, extended = 0, d = 0;  // three instructions that not every compiler's builtin knows
+  unsigned a = 0, b = 0, basic = 0, extended = 0, d = 0;  // three instructions that some compilers have no builtin for
   __get_cpuid(1, &a, &b, &basic, &d);
   __get_cpuid(0x80000001, &a, &b, &extended, &d);
   bool const v3 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi") &&

@@ -1,4 +1,4 @@
-// The instruction sets that one library serves, and which of them is in use.
+// The instruction sets that one library supports, and which of them is in use.
 #pragma once
 
 #include <string>
@@ -6,9 +6,9 @@
 
 namespace boltzmann {
 
-/// What kernels are compiled for: levels of the x86-64 psABI, or one machine.
+/// Targets of kernels: levels of the x86-64 psABI, or one machine.
 enum class InstructionSet {
-  native,     ///< whatever the library was compiled for: the only set where it was compiled once
+  native,     ///< the target of the compiler: the only set if the library was compiled once
   x86_64,     ///< every 64-bit x86: SSE2, 2 doubles at a time
   x86_64_v3,  ///< AVX2 and FMA, 4 at a time
   x86_64_v4,  ///< AVX-512 F, BW, CD, DQ and VL, 8 at a time
@@ -20,12 +20,12 @@ std::string to_string(InstructionSet set);
 /// The sets that this library has kernels for, the best last.
 std::vector<InstructionSet> compiled_instruction_sets();
 
-/// Those of them that this processor can run; none if the library was compiled for other machines only.
+/// The sets that this processor can run; none if the library was compiled for other machines only.
 std::vector<InstructionSet> instruction_sets();
 
-/// The set whose kernels run: the best one, or the one that the environment variable BOLTZMANN_INSTRUCTIONS names.
-/// Chosen at the first call. Error with the allowed words if there is no such set or this processor can't run it, or if
-/// it can run none.
+/// The set whose kernels run: the best one, or the one in the environment variable BOLTZMANN_INSTRUCTIONS. Chosen at
+/// the first call. Error with the allowed words if there is no such set, if this processor can't run it, or if it can
+/// run none.
 InstructionSet instruction_set();
 
 namespace detail {

@@ -1,5 +1,5 @@
-// From an ordinary unit to the kernels of the instruction set in use. Private to the library's sources; kernel units
-// don't read it, so that another choice of sets compiles none of them again.
+// Connects ordinary units with the kernels of the instruction set in use. Private to the library's sources. Kernel
+// units don't include it, so that another choice of sets recompiles none of them.
 #pragma once
 
 #include <boltzmann/core/instruction_set.hpp>

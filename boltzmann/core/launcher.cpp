@@ -1,4 +1,4 @@
-// From the environment to a team of processes.
+// Makes a team of processes from the environment.
 #include <boltzmann/core/team_functions.h>
 #include <boltzmann/core/clock.hpp>
 #include <boltzmann/core/error.hpp>
@@ -35,20 +35,21 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// In the environment of what a rank starts: that is no rank. Whoever starts runs of their own by a launcher sets it, too.
+// Set in the environment of child processes of a rank, which are no ranks. A program that starts runs under a launcher
+// sets it, too.
 constexpr char const* marker = "BOLTZMANN_ALONE";
 
 thread_local Team* acting = nullptr;
 std::atomic<Team*> joined{nullptr};
 std::string start_words;
-int real_errors = STDERR_FILENO;  // of a silent rank, where its last words go
+int real_errors = STDERR_FILENO;  // the stream for the last message of a silent rank
 
 std::string environment(char const* name) {
   char const* const value = std::getenv(name);
   return value ? value : "";
 }
 
-/// Ranks above 0 say nothing.
+/// Ranks above 0 print nothing.
 void silence() {
   int const nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC), kept = fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, 3);
   if (nowhere < 0) return;
@@ -59,7 +60,7 @@ void silence() {
   close(nowhere);
 }
 
-/// The processors that this process may use, and the machine's name.
+/// Names the processors that this process may use, and the machine.
 std::string processors() {
   std::string text(256, '\0');
   if (gethostname(text.data(), text.size()) != 0) text.clear();
@@ -87,7 +88,7 @@ Opened open_plugin() {
   Opened opened;
   opened.plugin.path = find_mpi_plugin();
   if (opened.plugin.path.empty()) return opened;
-  // Open MPI's own plug-ins look for its symbols among all.
+  // Open MPI's own plug-ins search its symbols in the global namespace.
   void* const library = dlopen(opened.plugin.path.c_str(), RTLD_NOW | RTLD_GLOBAL);
   if (!library) {
     opened.plugin.reason = dlerror();
@@ -116,7 +117,8 @@ void leave_at_exit(int status, void*) {
   throw Error(line);
 }
 
-/// Ends this process with a line if `call` takes too long. What a library waits for cannot be interrupted otherwise.
+/// Ends this process with a message if `call` exceeds its time limit. A blocking call of a library cannot be
+/// interrupted in another way.
 template <class Call>
 void within(double seconds, std::string const& line, Call const& call) {
   std::mutex mutex;
@@ -141,7 +143,7 @@ struct Place {
   int error = 0, rank = 0, size = 1;
 };
 
-/// Becomes a rank.
+/// Joins the launched ranks.
 Place join_launched(BoltzmannTeamFunctions const& functions, Launched const& told) {
   double const seconds = patience();
   Place place;
@@ -207,7 +209,7 @@ std::string different_start(Team& team) {
   return "";
 }
 
-/// Ranks of one machine don't need MPI for what they tell each other.
+/// Ranks of one machine exchange messages through shared memory instead of MPI.
 void speak_by_memory(Team& team, BoltzmannTeamFunctions const& launched) {
   std::string const said = environment("BOLTZMANN_MESSAGES");
   team.agree([&] {
@@ -217,10 +219,10 @@ void speak_by_memory(Team& team, BoltzmannTeamFunctions const& launched) {
   auto memory = std::make_unique<MemoryTeam>(team.rank(), team.size(), launched, nullptr);
   std::array<std::int64_t, 1> open{memory->open(team.gather(said == "mpi" ? "" : memory->address())) ? 1 : 0};
   team.min(open);
-  if (open[0] == 1) team.speak_by(MemoryTeam::functions(), memory.release());  // for ever, as the team
+  if (open[0] == 1) team.speak_by(MemoryTeam::functions(), memory.release());  // never freed, like the team
 }
 
-/// What has to be alike on all ranks, and what they share.
+/// Checks what has to be equal on all ranks, and divides the processors among them.
 void settle(Team& team) {
   std::string own;
   team.agree([&] { own = to_string(instruction_set()); });
@@ -255,14 +257,14 @@ Team* join() {
            fmt::format("a launcher has started {} of this, but MPI knows of {}: '{}' was compiled with another MPI "
                        "({}) than that of the launcher",
                        several, size, opened.plugin.path, opened.plugin.library));
-  auto* const team = new Team(*opened.functions, nullptr, rank, size);  // for ever: what leaves it runs last of all
+  auto* const team = new Team(*opened.functions, nullptr, rank, size);  // never freed: its exit handler runs last
   team->patience(patience());
   if (std::string const line = different_start(*team); !line.empty()) {
     opened.functions->leave(nullptr);
     refuse(told, line);
   }
   joined = team;
-  stay_alone();  // what it starts
+  stay_alone();  // for child processes
   on_exit(leave_at_exit, nullptr);
   if (rank > 0) silence();
   speak_by_memory(*team, *opened.functions);

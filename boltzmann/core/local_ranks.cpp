@@ -73,7 +73,7 @@ void LocalRanks::report() {
   if (!address || std::sscanf(address, "%ld %d", &process, &end) != 2 ||
       !std::string_view(address).ends_with(where_processes_are_numbered()))
     return;
-  // A signal may come at once, long before a run watches signals. By default it would kill, or be ignored and lost.
+  // A signal may come before the run watches signals. By default it would kill the process, or be lost.
   struct sigaction action {};
   action.sa_handler = on_early_signal;
   sigemptyset(&action.sa_mask);
@@ -82,7 +82,7 @@ void LocalRanks::report() {
   int const pipe = open(fmt::format("/proc/{}/fd/{}", process, end).c_str(), O_WRONLY | O_CLOEXEC | O_NONBLOCK);
   if (pipe < 0) return;
   std::string const line = fmt::format("{}\n", getpid());
-  [[maybe_unused]] auto const written = write(pipe, line.data(), line.size());  // at once, so lines do not mix
+  [[maybe_unused]] auto const written = write(pipe, line.data(), line.size());  // one write, so that lines do not mix
   close(pipe);
 }
 

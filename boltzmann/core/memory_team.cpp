@@ -1,4 +1,4 @@
-// Outboxes, and the operations of a team by them.
+// Outboxes, and the operations of a team that use them.
 #include <boltzmann/core/memory_team.hpp>
 
 #include <boltzmann/core/launcher.hpp>
@@ -21,20 +21,20 @@
 namespace boltzmann {
 namespace {
 
-constexpr std::size_t page = 1 << 16;  // by which outboxes grow, in bytes
+constexpr std::size_t page = 1 << 16;  // unit of growth of outboxes, in bytes
 constexpr std::size_t few = 1024;      // numbers that every rank adds up by itself
 constexpr char const* no_memory = "there is no memory for what ranks tell each other";
 
-/// What all see of a rank. Zeros, as of a new file, are the beginning.
+/// The state of a rank that all others see. Zeros, as in a new file, are its initial value.
 struct Head {
-  std::uint64_t token;                             // tells one team from another
-  alignas(64) std::atomic<std::uint64_t> posted;   // so often it has said something
-  std::atomic<std::uint64_t> ended;                // and it has ended all
-  alignas(64) std::atomic<std::uint64_t> room[2];  // of its outboxes, in bytes
+  std::uint64_t token;                             // identifies the team
+  alignas(64) std::atomic<std::uint64_t> posted;   // number of posts
+  std::atomic<std::uint64_t> ended;                // the rank has aborted the team
+  alignas(64) std::atomic<std::uint64_t> room[2];  // sizes of its outboxes, in bytes
 };
 static_assert(std::atomic<std::uint64_t>::is_always_lock_free);
 
-/// A file without a name, of memory; -1 if there can be none.
+/// An unnamed file in memory; -1 if there can be none.
 int new_file() {
 #if defined(__linux__)
   return memfd_create("boltzmann", MFD_CLOEXEC);
@@ -43,7 +43,7 @@ int new_file() {
 #endif
 }
 
-/// Room in it that is there: to write into more than a machine has would end the process.
+/// Allocates memory for it now: writing to more memory than the machine has would kill the process.
 bool grow(int file, std::size_t size) {
 #if defined(__linux__)
   return file >= 0 && posix_fallocate(file, 0, static_cast<off_t>(size)) == 0;
@@ -54,7 +54,7 @@ bool grow(int file, std::size_t size) {
 
 }  // namespace
 
-/// A file's bytes here. They move where more of them are asked for.
+/// The mapped bytes of a file. They move when the mapping grows.
 class MemoryTeam::Outbox {
  public:
   explicit Outbox(int file = -1) : file_(file) {}
@@ -67,7 +67,7 @@ class MemoryTeam::Outbox {
 
   int file() const { return file_; }
   void file(int file) { file_ = file; }
-  /// Null if they can't be had.
+  /// Null if they can't be mapped.
   char* bytes(std::size_t size) {
     if (size <= size_) return bytes_;
     unmap();
@@ -96,12 +96,12 @@ struct MemoryTeam::Rank {
   bool opens(std::size_t box) {
     return outboxes[box].bytes(head->room[box].load(std::memory_order_acquire)) != nullptr;
   }
-  /// All that the rank has said.
+  /// The bytes that the rank has written.
   char* said(std::size_t box) {
     char* const bytes = outboxes[box].bytes(head->room[box].load(std::memory_order_acquire));
     if (bytes) return bytes;
     tell_last_words(no_memory);
-    std::abort();  // by which the launcher ends the others
+    std::abort();  // the launcher then ends the others
   }
 };
 
@@ -114,7 +114,7 @@ MemoryTeam::MemoryTeam(int rank, int size, BoltzmannTeamFunctions const& launche
   if (!grow(mine.head_file.file(), sizeof(Head))) return;
   mine.head = reinterpret_cast<Head*>(mine.head_file.bytes(sizeof(Head)));
   if (!mine.head) return;
-  std::random_device random;  // of a name, not of anything computed
+  std::random_device random;  // for a name only, not for results
   mine.head->token = (std::uint64_t{random()} << 32U | random()) | 1U;
   for (std::size_t box = 0; box < 2; ++box)
     if (grow(mine.outboxes[box].file(), page)) mine.head->room[box] = page;
@@ -161,7 +161,7 @@ void MemoryTeam::end_all(char const* line) {
   throw TeamFailure(line, 1);
 }
 
-/// For what this rank says in this operation.
+/// Memory for the message of this rank in this operation.
 char* MemoryTeam::room(std::size_t bytes) {
   Rank& mine = *ranks_[static_cast<std::size_t>(rank_)];
   auto& size = mine.head->room[box()];
@@ -188,7 +188,7 @@ bool MemoryTeam::all_have_posted() {
   return true;
 }
 
-/// Numbers [begin, end) of all ranks.
+/// Combines the numbers [begin, end) of all ranks.
 void MemoryTeam::combine(std::int64_t* to, std::size_t begin, std::size_t end) const {
   auto const over = [&](auto const& combined) {
     bool first = true;
@@ -208,7 +208,7 @@ void MemoryTeam::combine(std::int64_t* to, std::size_t begin, std::size_t end) c
     over([](std::int64_t a, std::int64_t b) { return std::max(a, b); });
 }
 
-// Where what is said to each rank begins and ends; then all of it.
+// Memory for the index of the messages to each rank, which is written here, and for the messages after it.
 char* MemoryTeam::room_for_ranks(std::vector<Place> const& places) {
   std::size_t const index = places.size() * sizeof(Place);
   std::uint64_t end = index;
@@ -218,7 +218,7 @@ char* MemoryTeam::room_for_ranks(std::vector<Place> const& places) {
   return box;
 }
 
-/// What a rank has said to this one.
+/// The bytes that a rank has written for this one.
 std::span<char const> MemoryTeam::said_to_this(int rank) const {
   char const* const box = ranks_[static_cast<std::size_t>(rank)]->said(read_);
   Place place;
@@ -226,7 +226,7 @@ std::span<char const> MemoryTeam::said_to_this(int rank) const {
   return {box + place.begin, place.end - place.begin};
 }
 
-// What is said to several ranks alike is written once.
+// A message that is the same for several ranks is written once.
 void MemoryTeam::begin_exchange(BoltzmannMessage const* messages, int count) {
   using Said = std::vector<std::pair<void const*, std::size_t>>;
   now_ = {};
@@ -240,7 +240,7 @@ void MemoryTeam::begin_exchange(BoltzmannMessage const* messages, int count) {
       said[static_cast<std::size_t>(messages[k].rank)].emplace_back(messages[k].bytes,
                                                                     static_cast<std::size_t>(messages[k].count));
   std::vector<Place> places(ranks);
-  std::vector<std::size_t> written;  // to these ranks, and then to others alike
+  std::vector<std::size_t> written;  // ranks whose message is written; others may share it
   std::uint64_t at = ranks * sizeof(Place);
   for (std::size_t r = 0; r < ranks; ++r) {
     auto const same =

@@ -1,18 +1,18 @@
 /* libboltzmann_mpi.so: a team of processes by MPI, compiled by the MPI that a machine has:
      mpicc -O2 -shared -fPIC mpi_plugin.c -o libboltzmann_mpi.so
-   Nothing else of Boltzmann knows MPI. */
+   No other part of Boltzmann uses MPI. */
 #include "team_functions.h"
 
 #include <mpi.h>
 #include <stdlib.h>
 #include <string.h>
 
-static MPI_Comm team = MPI_COMM_NULL; /* of our own messages, apart from those of the program */
-static MPI_Request one = MPI_REQUEST_NULL, *under_way = &one; /* and so many */
+static MPI_Comm team = MPI_COMM_NULL; /* for our messages, separate from those of the program */
+static MPI_Request one = MPI_REQUEST_NULL, *under_way = &one; /* `requests` pending ones */
 static int requests = 1;
-static MPI_Request* of_messages = NULL; /* room for so many */
+static MPI_Request* of_messages = NULL; /* memory for `room` requests */
 static int room = 0;
-static int ours = 0; /* whether MPI was begun here */
+static int ours = 0; /* whether MPI was initialised here */
 
 static char const* library(void) {
   static char text[MPI_MAX_LIBRARY_VERSION_STRING];

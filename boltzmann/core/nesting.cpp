@@ -1,4 +1,4 @@
-// Counting open brackets and dots outside quotes and comments.
+// Counts open brackets and dots outside quotes and comments.
 #include <boltzmann/core/nesting.hpp>
 
 #include <algorithm>
@@ -6,7 +6,7 @@
 namespace boltzmann {
 namespace {
 
-/// Where a text in quotes that begins at `at` has ended.
+/// The end of a text in quotes that begins at `at`.
 std::size_t after_quotes(std::string_view text, std::size_t at) {
   char const quote = text[at];
   auto const three = text.substr(at, 3);
@@ -15,11 +15,11 @@ std::size_t after_quotes(std::string_view text, std::size_t at) {
     if (text[i] == '\\' && quote == '"')
       ++i;
     else if (text[i] == '\n' && !long_one)
-      return i;  // a mistake, which the reader tells
+      return i;  // an error, which the parser reports
     else if (text[i] == quote && !long_one)
       return i + 1;
     else if (text[i] == quote && text.substr(i, 3) == three)
-      return std::min(text.find_first_not_of(quote, i), i + 5);  // it may itself end in two
+      return std::min(text.find_first_not_of(quote, i), i + 5);  // the text may end in two quotes
   }
   return text.size();
 }

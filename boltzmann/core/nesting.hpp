@@ -1,4 +1,4 @@
-// How deep a text of TOML or JSON goes: their readers, and what they read, call themselves for each level.
+// Nesting of a text of TOML or JSON: parsers of these texts are recursive, so its depth is limited.
 #pragma once
 
 #include <cstddef>
@@ -6,11 +6,10 @@
 
 namespace boltzmann {
 
-/// As deep as a text that is read may be.
+/// The greatest depth that is accepted.
 constexpr std::size_t deepest_nesting = 64;
 
-/// Whether brackets, or the dots of a key, go deeper than deepest_nesting; what stands in quotes or comments doesn't
-/// count.
+/// True if brackets, or the dots of a key, are nested deeper than deepest_nesting. Quotes and comments do not count.
 bool nested_too_deep(std::string_view text);
 
 }  // namespace boltzmann

@@ -1,4 +1,4 @@
-// The words that laws use on numbers, for plain doubles; pack.hpp has the same words for packs.
+// Functions of numbers for laws, for plain doubles; pack.hpp has the same functions for packs.
 #pragma once
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// Which numbers a parameter, a key or an option may be.
+// The range of a parameter, a key or an option.
 #pragma once
 
 #include <limits>
@@ -6,13 +6,13 @@
 
 namespace boltzmann {
 
-/// From `low` (or above it) to `high`.
+/// From `low` (excluded if low_excluded) to `high`.
 struct NumberRange {
   double low = -std::numeric_limits<double>::infinity(), high = std::numeric_limits<double>::infinity();
   bool low_excluded = false;
 
   bool contains(double x) const { return (low_excluded ? x > low : x >= low) && x <= high; }
-  /// "positive", "zero or more", "between 1 and 5": what stands behind "it must be".
+  /// "positive", "zero or more", "between 1 and 5": completes "it must be".
   std::string text() const;
   bool operator==(NumberRange const&) const = default;
 };

@@ -1,4 +1,4 @@
-// Once: what a function makes, made when it is first asked for and kept.
+// Once: the result of a function, computed at the first use and kept.
 #pragma once
 
 namespace boltzmann {

@@ -1,4 +1,4 @@
-// What all tables of options have in common.
+// Functions that all tables of options share.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/options.hpp>
 #include <boltzmann/core/quantity_text.hpp>
@@ -40,7 +40,7 @@ std::string in_toml(OptionList const& list) {
   return all + "]";
 }
 
-/// The value of a member, or nothing where it is automatic.
+/// The value of a member, or nothing if it is automatic.
 struct Writer {
   std::string operator()(bool const* truth) const { return in_toml(*truth); }
   std::string operator()(int const* number) const { return in_toml(*number); }
@@ -70,7 +70,7 @@ struct Writer {
   }
 };
 
-/// The numbers that a member holds; of a list how many.
+/// The numbers that a member holds; for a list their count.
 struct Numbers {
   std::vector<double> operator()(int* number) const { return {static_cast<double>(*number)}; }
   std::vector<double> operator()(std::size_t* number) const { return {static_cast<double>(*number)}; }

@@ -1,5 +1,5 @@
-// Options: the members of a struct with the keys under which users write them, what each may be and what it means.
-// One table stands beside the struct; readers, writers, forms and reference pages are made from it.
+// Options: the members of a struct with their keys in scenarios, their allowed values and their meaning.
+// Each struct has one table. Readers, writers, forms and reference pages are generated from it.
 #pragma once
 
 #include <boltzmann/core/dimension.hpp>
@@ -45,21 +45,21 @@ struct OptionList {
   std::function<void()> clear;
 };
 
-/// A member that is written as a number of things or as a list of them.
+/// A member that is written as a count of things or as a list of them.
 struct CountOrList {
   int* count;
   std::vector<double>* list;
 };
 
-/// A member that is a struct with options of its own, which make() makes anew when its table is there.
+/// A member that is a struct with options of its own. make() creates it when its table is present.
 struct OptionGroup {
   OptionTable const* options;
   std::function<void*()> make;
 };
 
-/// The member of an object that an option is about. A number that is NaN, and an optional without value, are automatic.
-/// A span has one component for each axis, and may be too short for a space in which the object means nothing.
-/// std::monostate: it is no plain member; whoever reads the table reads it by code of its own.
+/// The member of an object that an option sets. A number that is NaN, and an optional without value, are automatic. A
+/// span has one component for each axis; it is too short for dimensions in which the object has no meaning.
+/// std::monostate: the option has no plain member and is read by other code.
 using OptionPlace =
     std::variant<bool*, int*, std::optional<int>*, std::int64_t*, std::size_t*, double*, std::optional<double>*,
                  std::string*, std::vector<int>*, std::vector<std::uint32_t>*, std::vector<std::size_t>*,
@@ -67,7 +67,7 @@ using OptionPlace =
                  std::optional<std::array<double, 3>>*, std::vector<std::array<double, 2>>*, NamedValue, OptionList,
                  OptionGroup, CountOrList, std::monostate>;
 
-/// What may be written for an option.
+/// The allowed values of an option.
 struct OptionKind {
   enum class Form {
     flag,
@@ -76,51 +76,51 @@ struct OptionKind {
     wholes_by_axis,    ///< one for all axes, or a list with one for each
     number,            ///< a quantity of `dimension` in `range`
     numbers,           ///< a list of them
-    count_or_numbers,  ///< how many, in `range`, or a list of them
-    vector,            ///< as many of them as space has axes
+    count_or_numbers,  ///< a count in `range`, or a list of numbers
+    vector,            ///< one component for each axis of space
     text,
-    path,       ///< a text that names a file, from the scenario's folder
+    path,       ///< a text that names a file, relative to the scenario's folder
     name,       ///< a text that names a quantity of particles, a column, ...
     word,       ///< one of `words`
-    axis,       ///< x, y or z, as far as space has them
+    axis,       ///< x, y or z, up to the dimension
     ensembles,  ///< the name of one, or a list of names
     particles,  ///< numbers of one ensemble, or words that choose them
     tables,
     group,  ///< a table in braces; words: an example of one
-    said    ///< what is allowed is said by the word
+    said    ///< `words` describes what is allowed
   };
   Form form = Form::text;
-  /// Of numbers; nothing: that of the quantity which is shown, which depends on the other options.
+  /// The dimension of numbers; nothing: that of the displayed quantity, which depends on other options.
   std::optional<Dimension> dimension = dimensions::none;
   NumberRange range = {};
-  std::vector<std::string> words = {};  ///< of a word; of a text, a number of no dimension or particles what it is; of
-                                        ///< a group an example
+  std::vector<std::string> words = {};  ///< of a word: all; of texts, pure numbers and particles: a description; of a
+                                        ///< group: an example
   int by_space = 0;       ///< in D dimensions the dimension is that times length^(D by_space): -1 for densities
-  double counted_in = 1;  ///< what a number alone stands for, in the base: pi/180 for angles in degrees
+  double counted_in = 1;  ///< the value of the number 1 in the base: pi/180 for angles in degrees
 };
 
 struct Option {
   std::string key;
   OptionKind kind;
   std::string doc;          ///< one line
-  std::string otherwise;    ///< what holds without it, where that is not the member's value at the beginning
-  std::string needed = {};  ///< an example, for options that can't be left out
+  std::string otherwise;    ///< the default, if it is not the initial value of the member
+  std::string needed = {};  ///< an example, for required options
   std::function<OptionPlace(void*)> place;
-  bool read_by_code = false;  ///< by code of its own, not from the table
+  bool read_by_code = false;  ///< by other code, not from the table
 };
 
-// What each of these lets a user write, in TOML.
+// Kinds of options, by what a user writes in TOML.
 namespace option {
 /// true or false.
 inline OptionKind flag() { return {OptionKind::Form::flag}; }
-/// Any text: "gas at rest"; what stands in it can be said, "the name of an ensemble".
+/// Any text, such as "gas at rest"; a description of it can be given, "the name of an ensemble".
 inline OptionKind text() { return {OptionKind::Form::text}; }
 inline OptionKind text(std::string what) { return {OptionKind::Form::text, dimensions::none, {}, {std::move(what)}}; }
-/// The path of a file, from the scenario's folder.
+/// The path of a file, relative to the scenario's folder.
 inline OptionKind path() { return {OptionKind::Form::path}; }
-/// "velocity.x": what particles have, a column, a field; whoever uses it knows which.
+/// "velocity.x": a quantity of particles, a column, a field; each option defines which.
 inline OptionKind name_of_quantity() { return {OptionKind::Form::name}; }
-/// "x", "y" or "z", as far as the space has them.
+/// "x", "y" or "z", up to the dimension of space.
 inline OptionKind axis_word() { return {OptionKind::Form::axis}; }
 /// One of these texts.
 inline OptionKind word(std::vector<std::string> words) {
@@ -130,7 +130,7 @@ inline OptionKind word(std::vector<std::string> words) {
 inline OptionKind whole(double low, double high) {
   return {OptionKind::Form::whole, dimensions::none, {low, high, false}};
 }
-/// "2.5 angstrom" or 2.5, in the simulation's units; of no dimension a plain number.
+/// "2.5 angstrom" or 2.5, in the simulation's units; a plain number if it has no dimension.
 inline OptionKind number(std::optional<Dimension> dimension, NumberRange range = {}) {
   return {OptionKind::Form::number, dimension, range};
 }
@@ -167,22 +167,21 @@ inline OptionKind degrees() {
 inline OptionKind numbers(std::optional<Dimension> dimension) { return {OptionKind::Form::numbers, dimension}; }
 /// A list of tables with options of their own: [{ ... }, { ... }].
 inline OptionKind tables() { return {OptionKind::Form::tables}; }
-/// A table in braces with options of its own, of which this is an example.
+/// A table in braces with options of its own, such as this example.
 inline OptionKind group(std::string example) {
   return {OptionKind::Form::group, dimensions::none, {}, {std::move(example)}};
 }
-/// The dimension of the quantity that is shown.
+/// The dimension of the displayed quantity.
 inline constexpr std::optional<Dimension> of_what_is_shown{};
 }  // namespace option
 
-/// An option of a table that one of several uses of its struct has, and what is particular there; what is empty is as
-/// in the table.
+/// One key of a restricted table, with the parts of its description that differ; empty parts are as in the full table.
 struct OptionKey {
   std::string key, doc = {}, otherwise = {}, needed = {};
   std::optional<OptionKind> kind = {};
 };
 
-/// The options of a struct T, in the order in which they are told.
+/// The options of a struct T, in the order of their documentation.
 class OptionTable {
  public:
   OptionTable() = default;
@@ -219,7 +218,7 @@ class OptionTable {
         std::move(key), [=, &words](T& of) -> OptionPlace { return named_value(&(of.*inner.*member), words); },
         option::word(words.names()), std::move(doc), std::move(otherwise));
   }
-  /// A member that is a struct with options of its own where its table is there.
+  /// A member that is a struct with options of its own, present if its table is.
   template <class T, class Group>
   OptionTable& add(std::string key, std::optional<Group> T::*member, OptionTable const& options, std::string example,
                    std::string doc, std::string otherwise) {
@@ -240,7 +239,7 @@ class OptionTable {
                 [member](void* object) -> OptionPlace { return member(*static_cast<T*>(object)); }});
   }
 
-  /// An option that is read by code of its own.
+  /// An option that other code reads.
   OptionTable& add_said(std::string key, OptionKind kind, std::string doc, std::string otherwise = "") {
     return add({std::move(key),
                 std::move(kind),
@@ -250,7 +249,7 @@ class OptionTable {
                 [](void*) -> OptionPlace { return std::monostate{}; },
                 true});
   }
-  /// The same: what may be written, in words.
+  /// The same, with a description of the allowed values.
   OptionTable& add_said(std::string key, std::string what, std::string doc, std::string otherwise = "") {
     return add_said(std::move(key), OptionKind{OptionKind::Form::said, dimensions::none, {}, {std::move(what)}},
                     std::move(doc), std::move(otherwise));
@@ -265,25 +264,25 @@ class OptionTable {
   auto end() const { return options_.end(); }
   /// Nullptr: there is none.
   Option const* find(std::string_view key) const;
-  /// To say something else of it. Error if there is none.
+  /// To change its description. Error if there is none.
   Option& at(std::string_view key);
   std::vector<std::string> keys() const;
   bool empty() const { return options_.empty(); }
-  /// Those with these keys, in their order, said otherwise where a key says it. Error if there is no such key.
+  /// The options with these keys, in their order, with changed descriptions where given. Error if there is no such key.
   OptionTable only(std::vector<OptionKey> const& keys) const;
 
  private:
   std::vector<Option> options_;
 };
 
-/// What is wrong with the value that an object has, "5 is out of range; it must be between 1 and 3"; empty: nothing, or
-/// it is the same as in `plain`.
+/// Describes what is wrong with the value that an object has, "5 is out of range; it must be between 1 and 3". Empty if
+/// it is valid, or the same as in `plain`.
 std::string out_of_range(Option const& option, void* object, void* plain);
-/// A line of documentation where nothing marks it up: without backquotes, and of a link its text.
+/// A line of documentation without markup: without backquotes, and with the text of links only.
 std::string plain_text(std::string_view doc);
-/// What may be written, in words: "true or false", "a whole number between 1 and 5", "a length, positive".
+/// The allowed values in words: "true or false", "a whole number between 1 and 5", "a length, positive".
 std::string allowed(Option const& option);
-/// The value that an object has, as TOML; empty: it is automatic, and need not be written.
+/// The value that an object has, as TOML; empty: it is automatic and need not be written.
 std::string toml_value(Option const& option, void* object);
 
 }  // namespace boltzmann

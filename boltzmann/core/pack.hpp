@@ -1,4 +1,4 @@
-// Pack<Real, W>: W numbers that are computed on at once (SIMD), on the compiler's vector extensions.
+// Pack<Real, W>: W numbers for SIMD arithmetic, on the compiler's vector extensions.
 #pragma once
 
 #include <boltzmann/core/number.hpp>
@@ -36,7 +36,7 @@ template <class Element, int W>
 struct register_of {
   typedef Element type __attribute__((vector_size(W * sizeof(Element))));
 };
-/// The lanes of one register, or of two after each other, that the last bits of `at` name.
+/// The lanes of one register, or of two concatenated ones, selected by the low bits of `at`.
 template <class Native, class Lanes>
 [[gnu::always_inline]] inline Native permuted(Native a, Lanes at) {
 #if defined(__clang__)
@@ -73,7 +73,7 @@ struct Mask {
   friend Mask operator|(Mask a, Mask b) { return {a.native | b.native}; }
   friend Mask operator!(Mask a) { return {~a.native}; }
   bool operator[](int lane) const { return native[lane] != 0; }
-  /// What `if`, `?:`, && and || ask for doesn't compile.
+  /// Makes `if`, `?:`, && and || on masks a compile-time error.
   template <std::same_as<bool> Truth>
   explicit operator Truth() const {
     static_assert(
@@ -123,7 +123,7 @@ struct Pack {
 
   /// a where the condition holds, else b.
   friend Pack select(Mask<Real, W> condition, Pack a, Pack b) { return condition.native ? a.native : b.native; }
-  // The instructions, which clang finds itself, give the second operand where one is NaN: here a.
+  // If one operand is NaN, the instructions, which clang emits by itself, return the second: here a.
   friend Pack min(Pack a, Pack b) {
 #if defined(__AVX512F__) && !defined(__clang__)
     if constexpr (sizeof(Native) == 64 && sizeof(Real) == 8)
@@ -158,7 +158,7 @@ struct Pack {
 #endif
       return select(a < b, b, a);
   }
-  friend Pack abs(Pack a) {  // also of -0 and of NaN: the sign bit goes
+  friend Pack abs(Pack a) {  // also for -0 and NaN: clears the sign bit
     using Bits = typename Mask<Real, W>::Native;
     return (Native)((Bits)a.native & (Bits{} + std::numeric_limits<typename detail::integer_of<Real>::type>::max()));
   }
@@ -206,7 +206,7 @@ struct Pack {
       Pack const y = Native(__builtin_ia32_rsqrt14pd512_mask(a.native, a.native, -1));
       Pack const e = Real(1) - a * y * y;
       Pack const corrected = y + y * e * (Real(0.5) + e * (Real(0.375) + Real(0.3125) * e));
-      return select(e == e, corrected, y);  // at zero and infinity e is NaN, and the estimate right
+      return select(e == e, corrected, y);  // at zero and infinity e is NaN, and the estimate is exact
     } else
 #endif
       return Real(1) / sqrt(a);
@@ -232,7 +232,7 @@ struct Pack {
   }
 };
 
-/// W numbers that stand side by side, wherever they do.
+/// W consecutive numbers, at any alignment.
 template <int W, class Real>
 [[gnu::always_inline]] inline Pack<Real, W> load_pack(Real const* from) {
   Pack<Real, W> pack;

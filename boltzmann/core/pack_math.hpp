@@ -2,11 +2,11 @@
 // written once in the arithmetic of Pack.
 //
 // Every lane depends on its own input only. No branches, except that sin and cos of arguments beyond 2^20 go to the C
-// library, lane by lane. Instruction sets are mentioned only in exp, where one instruction multiplies by a power of
-// two, looks up a table, or limits a number: the bits are the same without them. Where a rounding error would matter,
-// products are exact (their factors have few bits), so that a compiler that fuses a * b + c changes nothing there; in
-// the polynomials it may change the last bits. So: the same bits on every instruction set with FMA (from -O2), the same
-// bits on every one without, and between the two a difference within the errors below.
+// library, lane by lane. Only exp uses instructions of particular sets, to multiply by a power of two, look up a table,
+// or limit a number; the bits are the same without them. Where a rounding error would matter, products are exact (their
+// factors have few bits), so that a compiler that fuses a * b + c changes nothing there; in the polynomials it may
+// change the last bits. So: the same bits on every instruction set with FMA (from -O2), the same bits on every one
+// without, and between the two differences within the errors below.
 //
 // Largest errors measured against 80-bit arithmetic, in units in the last place (tests/core/pack_math_test.cpp):
 //   exp 1.2   expm1 1.1   log 0.95   pow 1.1   sin 0.8   cos 0.8   tanh 1.9   erfc 5.5   erf 3.0
@@ -47,7 +47,7 @@ template <int W>
 inline constexpr std::int64_t sign_bit = INT64_MIN;
 inline constexpr std::int64_t mantissa_bits = 0x000fffffffffffff;
 
-/// x with the sign of s turned over it: x >= 0 gets the sign of s.
+/// x multiplied by the sign of s: x >= 0 gets the sign of s.
 template <int W>
 [[gnu::always_inline]] inline Pack<double, W> with_sign_of(Pack<double, W> x, Pack<double, W> s) {
   return from_bits<W>(bits_of(x) ^ (bits_of(s) & sign_bit));
@@ -68,7 +68,7 @@ template <int W, class... Coefficients>
   return c0 + x * polynomial(x, more...);
 }
 
-// Adding and subtracting it rounds to the nearest integer, which then stands in the low bits of the sum.
+// Adding and subtracting it rounds to the nearest integer, which is in the low bits of the sum.
 inline constexpr double to_integer = 0x1.8p52;
 
 inline constexpr double ln2_high = 0x1.62e42fefa2p-1;  // 40 bits: times an exponent it is exact
@@ -89,8 +89,8 @@ template <int W>
   return (r * r) * (0.5 + r * q);
 }
 
-/// value 2^floor(k) for k in -1100..1100, rounded once where the result is subnormal; the low bits of `whole` are
-/// floor(k), those above 2^12 don't matter.
+/// value 2^floor(k) for k in -1100..1100, rounded once if the result is subnormal. The low bits of `whole` are
+/// floor(k); bits from 2^12 on are ignored.
 template <int W>
 [[gnu::always_inline]] inline Pack<double, W> times_power_of_two(Pack<double, W> value,
                                                                  [[maybe_unused]] Pack<double, W> k,
@@ -157,7 +157,7 @@ template <int W>
                                                            Pack<double, W> r) {
   auto const root = root_of_two<W>(bits_of(k_shifted));
   auto const r2 = r * r;
-  // Of degree 6, its error below 1.4e-17.
+  // A polynomial of degree 6 with an error below 1.4e-17.
   auto const a = 0x1.fffffffffffecp-2 + r * 0x1.555555547cc9ep-3;
   auto const b = (0x1.5555555639e86p-5 + r * 0x1.1112473f7f092p-7) + r2 * 0x1.6c16df70e5ddfp-10;
   auto const p = r + r2 * (a + r2 * b);
@@ -177,7 +177,7 @@ template <int W>
                          magic = 0x4330000000000000;  // magic: 2^52
   Mask<double, W> const subnormal = x < 0x1p-1022;
   x = select(subnormal, x * 0x1p54, x);
-  // Without a sign: lanes with NaN, whose result nobody takes, would overflow.
+  // Unsigned: lanes with NaN, whose result is not used, would overflow.
   using Unsigned = typename register_of<std::uint64_t, W>::type;
   Bits<W> const moved = (Bits<W>)((Unsigned)bits_of(x) + static_cast<std::uint64_t>(one - root_half));
   Real const biased = from_bits<W>((Bits<W>)((typename Mask<double, W>::Native)moved >> 52 & 0x7ff) | magic);
@@ -202,7 +202,7 @@ template <int W>
   Real const n = shifted - to_integer;
   Real const a = x - n * 0x1.921fb544p+0;
   Real error = 0.0;
-  auto const subtract = [&error](Real big, Real part) {  // the rounding error of the difference goes to `error`
+  auto const subtract = [&error](Real big, Real part) {  // accumulates the rounding error of the difference
     Real const difference = big - part;
     Real const back = difference - big;
     error += (big - (difference - back)) - (part + back);
@@ -239,8 +239,8 @@ template <int W>
   return from_bits<W>(bits_of(value) ^ (Bits<W>)(r.quadrant << 62 & sign_bit));
 }
 
-/// The C library's function in the lanes that reduce_angle() can't take; in long double, since the one for doubles is
-/// 160 units off where a double comes closest to a multiple of pi/2.
+/// Calls the C library's function in the lanes outside the range of reduce_angle(). It uses long double, since the
+/// function for doubles is 160 units off at the double closest to a multiple of pi/2.
 template <int W, class Function>
 [[gnu::noinline, gnu::cold]] void replace_lanes(double const* x, double* value, Function f) {
   for (int lane = 0; lane < W; ++lane)
@@ -264,7 +264,7 @@ template <int W>
 [[gnu::always_inline]] inline Pack<double, W> exp(Pack<double, W> x) {
   using Real = Pack<double, W>;
 #if defined(__AVX512DQ__)
-  constexpr bool limited = W == 8;  // by itself: times_power_of_two() takes any k
+  constexpr bool limited = W == 8;  // times_power_of_two() accepts any k
 #else
   constexpr bool limited = false;
 #endif
@@ -274,15 +274,15 @@ template <int W>
   // ln 2 in two parts, the first of 36 bits.
   Real r = (x - k * 0x1.62e42fefap-1) - k * 0x1.cf79abc9e3b3ap-40;
 #if defined(__AVX512DQ__)
-  if constexpr (limited)  // to |r| <= 0.03, also where x is infinite or so large that k is not what it should be
+  if constexpr (limited)  // to |r| <= 0.03, also where x is infinite or so large that k is inexact
     r = __builtin_ia32_rangepd512_mask(r.native, Real(0.03).native, 2, r.native, -1, 4);
 #endif
   return detail::exp_of_parts(k, shifted, r);
 }
 
-/// e^x for an x that has been rounded, as most have: the relative error is below 2.1e-16 + 0.4e-16 |x| (with FMA;
-/// without it 2.1e-16 + 1.2e-16 |x|), while the rounding of x alone makes 1.1e-16 |x|. Cheaper than exp(), and the same
-/// but for that; not for x below -1e60 (NaN and the infinities are right).
+/// e^x for an x that is itself rounded, the usual case. The relative error is below 2.1e-16 + 0.4e-16 |x| (with FMA;
+/// without it 2.1e-16 + 1.2e-16 |x|), while the rounding of x alone causes 1.1e-16 |x|. Cheaper than exp(), with the
+/// same special values, but not for x below -1e60 (NaN and the infinities are right).
 template <int W>
 [[gnu::always_inline]] inline Pack<double, W> exp_of_rounded(Pack<double, W> x) {
   using Real = Pack<double, W>;
@@ -296,7 +296,7 @@ template <int W>
   Real const k = shifted - detail::to_sixteenths;
   return detail::exp_of_parts(k, shifted, x - k * 0x1.62e42fefa39efp-1);
 }
-/// For every other kind of number.
+/// Fallback for other kinds of numbers.
 template <class Real>
 Real exp_of_rounded(Real const& x) {
   return exp(x);
@@ -437,8 +437,8 @@ template <int W>
                         0x1.8b4b60851826bp-20);
 }
 /// erfc(a) for a >= 1/2, by e^(a^2) erfc(a) (a + 3.5) = a polynomial of degree 20 of t = (a - 3.5)/(a + 3.5), of
-/// relative error 7e-18: it takes the function's own values at the Chebyshev points of the interval of t that belongs
-/// to 1/2 <= a <= 28. The square in the exponent is exact, in two parts.
+/// relative error 7e-18. It interpolates the function at the Chebyshev points of the interval of t that belongs to 1/2
+/// <= a <= 28. The square in the exponent is exact, in two parts.
 template <int W>
 [[gnu::always_inline]] inline Pack<double, W> erfc_far(Pack<double, W> a) {
   using Real = Pack<double, W>;
@@ -466,7 +466,7 @@ template <int W>
   auto const a = abs(x);
   auto const far = detail::erfc_far(a);
   auto const near = a < 0.5, negative = x < 0.0;
-  // One difference after the choice, so that no compiler fuses the product in erf_near() with it.
+  // One difference after the selection, so that no compiler fuses it with the product in erf_near().
   auto const whole = select(near, Real(1.0), select(negative, Real(2.0), Real(0.0)));
   return whole - select(near, detail::erf_near(x), select(negative, far, -far));
 }

@@ -1,5 +1,5 @@
-// Random numbers of packs: one block of Philox4x32-10 per lane, and normals made of its words. What one lane gets
-// depends on its own counter only.
+// Random numbers of packs: one block of Philox4x32-10 per lane, and normals from its words. A lane depends on its own
+// counter only.
 #pragma once
 
 #include <boltzmann/core/pack.hpp>
@@ -58,15 +58,14 @@ struct PhiloxKey {
   }
 };
 
-/// Four words of 32 random bits in every lane, in the low halves of 64-bit lanes; what stands in the high halves has no
-/// meaning.
+/// Four words of 32 random bits in every lane, in the low halves of 64-bit lanes; the high halves have no meaning.
 template <int W>
 struct RandomWords {
   detail::Words<W> word[4];
 };
 
-/// Ten rounds of Philox on four words of 32 bits (Salmon, Moraes, Dror and Shaw, SC11), for W counters at once; of the
-/// counters only the low halves count.
+/// Ten rounds of Philox on four words of 32 bits (Salmon, Moraes, Dror and Shaw, SC11), for W counters at once; only
+/// the low halves of the counters are used.
 template <int W>
 [[gnu::always_inline]] inline RandomWords<W> philox4x32(RandomWords<W> counter, PhiloxKey const& key) {
   using detail::multiply_low_halves;
@@ -97,7 +96,7 @@ template <int W>
   Bits const shifted = detail::bits_of(t) - 0x3fe6a09e667f3bcd;
   Real const k = detail::from_bits<W>((((shifted >> 52) + 1024) & 0x7ff) | exponent) - (0x1p52 + 1024);
   Real const f = detail::from_bits<W>((shifted & detail::mantissa_bits) + 0x3fe6a09e667f3bcd) - 1.0;
-  // The polynomial by pairs of terms: half as long a way as one after the other.
+  // The polynomial by pairs of terms, which halves the chain of dependent operations.
   Real const f2 = f * f, f4 = f2 * f2;
   Real const low =
       (-0.5000000000208761 + f * 0.33333322605887444) + f2 * (-0.24999991259441945 + f * 0.20001452394186736);
@@ -108,7 +107,7 @@ template <int W>
   Real const square = max(44.3614195558365 - 2.0 * log_t, Real(1e-11));  // 64 log 2: never below zero
   Real const r = square * rsqrt(square);
 
-  // A direction in the quadrant about the x axis; two bits say which quadrant it is turned or mirrored to.
+  // A direction in the quadrant about the x axis; two bits select the quadrant that it is rotated or mirrored to.
   Real const phi =
       (detail::from_bits<W>((Bits)(angle & 0x3fffffffU) | exponent) - (0x1p52 - 0.5)) * (1.5707963267948966 * 0x1p-30) -
       0.7853981633974483;

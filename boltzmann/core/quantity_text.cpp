@@ -101,7 +101,7 @@ constexpr Prefix prefixes[] = {{"P", "peta", 1e15},  {"T", "tera", 1e12},  {"G",
                                {"m", "milli", 1e-3}, {"u", "micro", 1e-6}, {"µ", "", 1e-6},       {"μ", "", 1e-6},
                                {"n", "nano", 1e-9},  {"p", "pico", 1e-12}, {"f", "femto", 1e-15}, {"a", "atto", 1e-18}};
 
-// Words that a reader may try, and that mean two things or nothing here.
+// Words that a user may try, and that are ambiguous or have no meaning here.
 constexpr std::pair<std::string_view, std::string_view> refused[] = {
     {"A", "'A' may be ampere or angstrom: write the word"},
     {"F", "temperatures are absolute: write kelvin, 'K'"},
@@ -125,7 +125,7 @@ void for_each_word(std::string_view words, F&& f) {
   }
 }
 
-// Calls f(name, factor, unit) for every name; an earlier one wins over a later one of the same spelling.
+// Calls f(name, factor, unit) for every name; of two with the same spelling the first wins.
 template <class F>
 void for_each_name(F&& f) {
   for (auto const& u : table) {
@@ -155,11 +155,11 @@ std::optional<Known> find_unit(std::string_view name) {
   return found->second;
 }
 
-// One line of a message: no control characters, not longer than a reader reads.
+// One line of a message: no control characters, limited length.
 std::string in_quotes(std::string_view text) {
   std::size_t end = std::min<std::size_t>(text.size(), 60);
   while (end > 0 && end < text.size() && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U)
-    --end;  // whole UTF-8
+    --end;  // keeps UTF-8 whole
   std::string line = "'";
   for (char const c : text.substr(0, end)) line += static_cast<unsigned char>(c) < 32 || c == 127 ? '?' : c;
   return line + (end < text.size() ? "...'" : "'");

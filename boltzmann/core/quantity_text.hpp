@@ -1,4 +1,4 @@
-// Quantities as text: "2.551 angstrom" in a scenario file becomes a number with a dimension, or one readable line.
+// Quantities as text: parses "2.551 angstrom" to a number with a dimension, and reports errors in one line.
 #pragma once
 
 #include <boltzmann/core/dimension.hpp>
@@ -18,8 +18,8 @@ struct TextQuantity {
   bool has_unit;        ///< "5" and "0.3 pi" have none; "36 degree" has one
 };
 
-/// One unit that texts can use. Metric prefixes are allowed before it where `prefixes` says so: k before the symbols,
-/// kilo before the words.
+/// One unit for texts. Metric prefixes are allowed before it if `prefixes` is set: k before the symbols, kilo before
+/// the words.
 struct NamedUnit {
   std::string_view symbols;  ///< separated by blanks: "eV"
   std::string_view words;    ///< separated by blanks: "electronvolt electronvolts"
@@ -28,27 +28,27 @@ struct NamedUnit {
   bool prefixes;
 };
 
-/// Every unit that parse_quantity knows, without the prefixed ones: the one table, whose values are those of units::.
+/// The table of all units of parse_quantity, without the prefixed ones; the values are those of units::.
 std::span<NamedUnit const> unit_table();
 
-/// All names known to parse_quantity: symbols, singular, plural, other spellings; the prefixed ones come last.
+/// All names that parse_quantity accepts: symbols, singular, plural, other spellings; the prefixed ones come last.
 std::vector<std::string> const& unit_names();
 
 /// Reads "2.551 angstrom", "0.2 eV/angstrom^2", "9.81 m/s^2", "1 kcal/mol", "5 J/(kg K)", "300 K", "0.5 1/s", "5", "0.3
 /// pi", "36 degree". A number (or pi), then units joined by a blank or * (times) and / (divided by), from left to
-/// right, with whole exponents (^2, **2, ^-1) and parentheses; a blank after a / must stand in parentheses. Throws
+/// right, with whole exponents (^2, **2, ^-1) and parentheses; after a / only parentheses may contain blanks. Throws
 /// Error with one line, e.g. "unknown unit 'angstom'; did you mean 'angstrom'?".
 TextQuantity parse_quantity(std::string_view text);
 
-/// Reads a quantity, checks its dimension, and gives the plain number in `units`. A number without a unit is taken as
-/// already in them. Throws Error: what parse_quantity says, "'2.551 angstrom' is a length, a mass is needed
-/// (e.g. 'kg', 'amu')", a unit where numbers are pure, or a number beyond the range of double.
+/// Reads a quantity, checks its dimension, and returns the plain number in `units`. A number without a unit is already
+/// in them. Throws Error: errors of parse_quantity, "'2.551 angstrom' is a length, a mass is needed (e.g. 'kg',
+/// 'amu')", a unit where the base has none, or a number beyond the range of double.
 double in_units(std::string_view text, Dimension wanted, UnitSystem const& units);
 
 /// "an energy", "a length".
 std::string with_article(std::string const& noun);
 
-/// Up to two units for a dimension, as a reader would write them: {"m/s", "cm/s"}. Empty for a pure number.
+/// Up to two customary units for a dimension: {"m/s", "cm/s"}. Empty for a pure number.
 std::vector<std::string> example_units(Dimension);
 
 }  // namespace boltzmann

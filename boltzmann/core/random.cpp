@@ -1,4 +1,4 @@
-// The parameters of random variables, checked, and their quantiles.
+// Checks the parameters of random variables; their quantiles.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/random.hpp>
 
@@ -38,7 +38,7 @@ double normal_quantile(double u) {
   return u < 0.5 ? x : -x;
 }
 
-/// mean + deviation z, also where the deviation is 0 and z infinite.
+/// mean + deviation z, also if the deviation is 0 and z infinite.
 double scaled(double mean, double deviation, double z) { return deviation > 0.0 ? mean + deviation * z : mean; }
 
 double sinc(double x) { return std::abs(x) < 1e-9 ? 1.0 : std::sin(x) / x; }
@@ -141,8 +141,8 @@ double Ripple::quantile(double u) const {
   double high = b;
   double x = a + u * (b - a);
   double previous_step = b - a;
-  // Newton's method inside a shrinking bracket; a step that leaves it or that doesn't halve the one before is replaced
-  // by bisection.
+  // Newton's method inside a shrinking bracket. A step that leaves the bracket, or does not halve the one before, is
+  // replaced by bisection.
   for (int iteration = 0; iteration < 200 && high - low > resolution; ++iteration) {
     double const excess = mass_below(*this, x) - target;
     if (excess == 0.0) break;

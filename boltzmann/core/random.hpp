@@ -11,7 +11,8 @@ namespace boltzmann {
 // ---- Philox4x64-10 ----
 
 /// Ten rounds of Philox on four 64-bit words (Salmon, Moraes, Dror and Shaw, "Parallel random numbers: as easy as 1, 2,
-/// 3", SC11): a bijection of the counter for every key, whose outputs are random numbers. Same bits on every machine.
+/// 3", SC11): a bijection of the counter for every key, whose outputs are random numbers. The bits are the same on
+/// every machine.
 constexpr std::array<std::uint64_t, 4> philox(std::array<std::uint64_t, 4> counter, std::array<std::uint64_t, 2> key) {
   __extension__ using Wide = unsigned __int128;
   for (int round = 0; round < 10; ++round) {
@@ -27,29 +28,28 @@ constexpr std::array<std::uint64_t, 4> philox(std::array<std::uint64_t, 4> count
 
 // ---- Streams ----
 
-/// What random numbers are drawn for. Two purposes never share numbers. The values are part of every stored result:
-/// append, never renumber.
+/// The use of random numbers. Two purposes never share numbers. The values are part of every stored result: append,
+/// never renumber.
 enum class Purpose : std::uint32_t {
   position = 0,
   velocity = 1,
   internal_energy = 2,
   selection = 3,    ///< which particle, which species, which order
-  pair_noise = 4,   ///< the fluctuating force between two particles (DPD, DPDE)
+  pair_noise = 4,   ///< the random force between two particles (DPD, DPDE)
   random_walk = 5,  ///< diffusion of one particle (viscous vortices)
   thermostat = 6,
-  field_diffusion = 7,  ///< the random walk of a field that has a rate of its own
-  user = 0x10000,       ///< this and all above belong to users: user_purpose(n)
+  field_diffusion = 7,  ///< the random walk of a field with a rate of its own
+  user = 0x10000,       ///< this and all above are for users: user_purpose(n)
 };
 
-/// The n-th purpose of a user's own.
+/// The n-th purpose of a user.
 constexpr Purpose user_purpose(std::uint32_t n) {
   return static_cast<Purpose>(static_cast<std::uint32_t>(Purpose::user) + n);
 }
 
-/// An endless sequence of random numbers that depends on its key (seed, step, particle, purpose) and nothing else: no
-/// order of evaluation, thread, process or restart changes it. Different keys give independent sequences (the key is
-/// used whole, not hashed: no two keys share numbers). Making one costs nothing; each particle makes its own, draws and
-/// drops it.
+/// An endless sequence of random numbers that depends only on its key (seed, step, particle, purpose). The order of
+/// evaluation, threads, processes and restarts do not change it. Different keys give independent sequences, as the key
+/// is used whole instead of hashed. A stream costs nothing to make: each particle makes its own, draws and drops it.
 class Stream {
  public:
   constexpr Stream(std::uint64_t seed, std::uint64_t step, std::uint64_t id, std::uint32_t purpose)
@@ -57,7 +57,7 @@ class Stream {
   constexpr Stream(std::uint64_t seed, std::uint64_t step, std::uint64_t id, Purpose purpose)
       : Stream(seed, step, id, static_cast<std::uint32_t>(purpose)) {}
 
-  /// The stream of a pair of particles: the same for (i, j) and (j, i), apart from all streams of single particles.
+  /// The stream of a pair of particles: the same for (i, j) and (j, i), independent of all streams of single particles.
   static constexpr Stream pair(std::uint64_t seed, std::uint64_t step, std::uint64_t i, std::uint64_t j,
                                Purpose purpose = Purpose::pair_noise) {
     Stream stream(seed, step, i < j ? i : j, purpose);
@@ -114,20 +114,20 @@ struct Uniform {
 
   Uniform(double low, double high);
   double operator()(Stream& stream) const { return low + (high - low) * stream.uniform(); }
-  /// For u in [0, 1]; throws Error elsewhere.
+  /// For u in [0, 1]; throws Error otherwise.
   double quantile(double u) const;
 };
 
-/// p(x) = exp(-(x - mean)^2 / 2 s^2) / (s sqrt(2 pi)), s the standard deviation (Eq 2.1; the text there calls s "the
-/// variance", and its listing takes the square root of it, but its formula has a standard deviation: so has this).
-/// Throws Error if s < 0 or a parameter is not finite.
+/// p(x) = exp(-(x - mean)^2 / 2 s^2) / (s sqrt(2 pi)), s the standard deviation (Eq 2.1). The text there calls s "the
+/// variance", and its listing uses the square root of s, but its formula has the standard deviation, as here. Throws
+/// Error if s < 0 or a parameter is not finite.
 struct Normal {
   double mean;
   double standard_deviation;
 
   Normal(double mean, double standard_deviation);
   double operator()(Stream& stream) const { return mean + standard_deviation * stream.normal(); }
-  /// For u in [0, 1], infinite at the ends; absolute accuracy about 1e-15 standard deviations. Throws Error elsewhere.
+  /// For u in [0, 1], infinite at the ends; absolute accuracy about 1e-15 standard deviations. Throws Error otherwise.
   double quantile(double u) const;
 };
 
@@ -142,7 +142,7 @@ struct Maxwellian {
   Maxwellian(double temperature, double mass, double boltzmann_constant = 1.0);
   double standard_deviation() const { return std::sqrt(boltzmann_constant * temperature / mass); }
   double operator()(Stream& stream) const { return standard_deviation() * stream.normal(); }
-  /// For u in [0, 1], infinite at the ends. Throws Error elsewhere.
+  /// For u in [0, 1], infinite at the ends. Throws Error otherwise.
   double quantile(double u) const;
 };
 
@@ -153,12 +153,12 @@ struct Exponential {
 
   explicit Exponential(double rate);
   double operator()(Stream& stream) const { return -std::log(stream.uniform()) / rate; }
-  /// For u in [0, 1], infinite at 1. Throws Error elsewhere.
+  /// For u in [0, 1], infinite at 1. Throws Error otherwise.
   double quantile(double u) const;
 };
 
 /// Density proportional to nu + mu sin(alpha x + beta) on [a, b] (appendix A.4, C.16): particles with a wave in their
-/// density. The listing's test of its parameters is wrong; what is needed is |mu| <= nu. Throws Error if a >= b, |mu| >
+/// density. The condition is |mu| <= nu; the listing's test of its parameters is wrong. Throws Error if a >= b, |mu| >
 /// nu, the density vanishes everywhere or a parameter is not finite.
 struct Ripple {
   double a;

@@ -1,4 +1,4 @@
-// Words that users wrote before and that are others now: whoever meets one in a file of then says so.
+// Words that were renamed. Readers of older files accept them and add a note.
 #pragma once
 
 #include <array>
@@ -22,7 +22,7 @@ inline constexpr std::array renamed_words{RenamedWord{"flows", "dissipation"},
                                           RenamedWord{"cells", "bins"},
                                           RenamedWord{"one_way", "by"}};
 
-/// A word of ours, and what it is called in other programs and books: in small letters, with blanks between them.
+/// A word of Boltzmann, and its names in other programs and books: in small letters, separated by blanks.
 struct WordElsewhere {
   std::string_view here, elsewhere;
 };

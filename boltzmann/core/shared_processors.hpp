@@ -1,13 +1,13 @@
-// How many processes share the processors of this one.
+// The number of processes that share the processors of this one.
 #pragma once
 
 namespace boltzmann {
 
-/// So many processes have the same processors as this one, and each takes its part of them: default_threads() says fewer
-/// from now on, unless OMP_NUM_THREADS says how many.
+/// This many processes have the same processors as this one, and each uses its part of them. From now on
+/// default_threads() is smaller, unless OMP_NUM_THREADS sets it.
 void share_processors(int processes);
-/// Whether that has been said, and there are processors for all threads of all of them: who waits for a moment need not
-/// leave its own to others.
+/// True if share_processors() was called and there are processors for all threads of all these processes. Then a short
+/// wait may spin instead of yielding its processor.
 bool processors_suffice();
 
 }  // namespace boltzmann

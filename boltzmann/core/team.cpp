@@ -1,4 +1,4 @@
-// Votes, and the exceptions that come out of them.
+// Votes, and the exceptions that result from them.
 #include <boltzmann/core/team_functions.h>
 #include <boltzmann/core/clock.hpp>
 #include <boltzmann/core/error.hpp>
@@ -29,11 +29,11 @@ char const* words(Team::Occasion occasion) { return occasion_words[static_cast<s
 
 enum class Kind : int { error, physics, memory, other };
 
-/// A failure as it travels.
+/// A failure as it is sent to other ranks.
 struct Description {
   Kind kind = Kind::other;
   int status = 1;
-  Team::Occasion occasion{};  // of the rank that has failed
+  Team::Occasion occasion{};  // of the failed rank
   std::string line;
 };
 
@@ -75,7 +75,7 @@ std::uint64_t checksum_of(std::string_view text) {  // FNV-1a
   return sum;
 }
 
-/// That the calling thread has used.
+/// Processor time of the calling thread.
 double processor_seconds() {
   std::timespec time{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
@@ -94,8 +94,8 @@ int exit_status(std::exception_ptr const& failure) { return describe(failure).st
 Team::Team(BoltzmannTeamFunctions const& functions, void* of, int rank, int size)
     : functions_(&functions), of_(of), rank_(rank), size_(size) {}
 
-/// Awake at first, if it has a processor of its own; then it leaves the processor to others, who may be what it waits
-/// for.
+/// Spins at first, if it has a processor of its own; then it yields the processor, since another rank that it waits for
+/// may need it.
 void Team::wait() {
   ++counts_.collectives;
   if (functions_->done(of_) != 0) return;
@@ -221,7 +221,7 @@ Team::Outcome Team::vote(Ballot const& ballot, std::exception_ptr const& failed)
   occasion_ = ballot.occasion;
   auto const occasion = static_cast<std::int64_t>(ballot.occasion);
   auto const checksum = static_cast<std::int64_t>(ballot.checksum);
-  // Minima; of the complement the maximum.
+  // Minima; the minimum of the complement gives the maximum.
   constexpr std::size_t own = 10;
   std::array<std::int64_t, own + std::tuple_size_v<Most>> numbers{failed ? rank_ : nobody,
                                                                   occasion,
@@ -258,7 +258,7 @@ Team::Outcome Team::meet(Occasion occasion, Most const& most) {
   return outcome;
 }
 
-/// The failure of a rank on all of them: its own exception where it is the same.
+/// The failure of a rank, as an exception on all of them: the rank's own exception if it is the same.
 std::exception_ptr Team::failure_of(int rank, Ballot const& ballot, std::exception_ptr const& mine) {
   Description own;
   if (mine) own = describe(mine);
@@ -275,7 +275,7 @@ std::exception_ptr Team::failure_of(int rank, Ballot const& ballot, std::excepti
   if (!mine && failure.line.empty() && failure.kind == Kind::other)
     failure.line = fmt::format("rank {} has ended with exit status {}", rank, failure.status);
   auto exception = same ? mine : exception_of(failure);
-  if (static_cast<Occasion>(occasion) == Occasion::program_ends) over_ = exception;  // nobody is there to vote with
+  if (static_cast<Occasion>(occasion) == Occasion::program_ends) over_ = exception;  // no rank is left to vote with
   return exception;
 }
 

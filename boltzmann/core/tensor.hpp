@@ -187,8 +187,8 @@ constexpr Real determinant(Tensor<D, Real> const& a) {
   return sum;
 }
 
-/// The tensor whose product with A is the identity. Not finite where the determinant is 0: lanes of a pack can't
-/// refuse, callers must.
+/// The tensor whose product with A is the identity. Not finite if the determinant is 0: lanes of a pack can't throw, so
+/// callers must check.
 template <int D, class Real>
 constexpr Tensor<D, Real> inverse(Tensor<D, Real> const& a) {
   return adjugate(a) / determinant(a);

@@ -1,7 +1,6 @@
-// The threads that loops are shared among. They are started when first wanted and kept; between loops they look out for
-// work for a moment, then sleep. Whoever starts a loop takes ranges like everyone else, and waits for ranges that are
-// being worked on, never for a thread that has none: on a machine that is busy with something else a thread that does
-// not get a processor costs nothing.
+// The pool of threads for loops. Threads are started when first needed and kept. Between loops they poll for work for a
+// moment, then sleep. The caller of a loop processes ranges, too. It waits for ranges in progress, but never for a
+// thread that has none. So a thread that gets no processor on a busy machine causes no delay.
 #include <boltzmann/core/shared_processors.hpp>
 #include <boltzmann/core/threads.hpp>
 
@@ -22,7 +21,7 @@
 namespace boltzmann {
 namespace {
 
-// Longer than what lies between two loops of a step, shorter than anyone would notice.
+// Longer than the time between two loops of a step, short enough not to waste processor time.
 constexpr auto patience = std::chrono::microseconds(100);
 
 void pause() {
@@ -31,7 +30,7 @@ void pause() {
 #endif
 }
 
-/// Waits until done() holds; true if it did within the patience.
+/// Polls until done() holds; true if it did within the patience.
 template <class Done>
 bool look_out(Done const& done) {
   for (int n = 0; n < 64; ++n) {
@@ -57,7 +56,7 @@ struct Loop {
   std::exception_ptr failure;
   std::size_t failed_range;
 
-  /// Takes ranges as long as there are any.
+  /// Processes ranges while there are any.
   void work() {
     for (std::size_t range = next++; range < ranges; range = next++) {
       std::size_t const begin = range * grain;
@@ -87,8 +86,8 @@ class Pool {
     for (auto& thread : threads_) thread.join();
   }
 
-  /// Runs the loop on so many threads, the caller's among them; on this one alone if the others are busy with a loop of
-  /// somebody else.
+  /// Runs the loop on this number of threads, including the caller's; on the caller's alone if the others are busy with
+  /// a loop of another thread.
   void run(Loop& loop, int threads) {
     std::unique_lock const mine(busy_, std::try_to_lock);
     if (!mine.owns_lock()) return loop.work();
@@ -96,7 +95,7 @@ class Pool {
     try {
       while (threads_.size() < helpers) threads_.emplace_back([this, number = threads_.size()] { serve(number); });
     } catch (std::system_error const&) {
-      // No more are to be had: those that there are do the work.
+      // No more can be started: those that exist do the work.
     }
     helpers_ = helpers;
     loop_ = &loop;
@@ -118,7 +117,7 @@ class Pool {
       }
       seen = loops_;
       if (stopping_) return;
-      // Whoever visits is waited for; whoever comes late finds no loop.
+      // The caller waits for a worker that has joined; a worker that comes late finds no loop.
       ++visitors_;
       if (Loop* loop = loop_; loop && number < helpers_) loop->work();
       --visitors_;

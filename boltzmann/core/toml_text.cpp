@@ -1,4 +1,4 @@
-// One letter after the other.
+// Escapes letter by letter.
 #include <boltzmann/core/toml_text.hpp>
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// How a text stands in TOML: in quotation marks, with escapes.
+// Texts in TOML: quotation marks and escapes.
 #pragma once
 
 #include <string>

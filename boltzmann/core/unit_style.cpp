@@ -13,7 +13,7 @@ namespace {
 
 using Special = UnitStyle::Special;
 
-// LAMMPS' styles where they are not what follows from length, mass and time.
+// LAMMPS' styles, as far as units do not follow from length, mass and time.
 constexpr std::array metal{
     Special{dimensions::energy, "eV"},
     Special{dimensions::force, "eV/angstrom"},

@@ -1,4 +1,4 @@
-// Unit styles: the units that files of atoms are in, by LAMMPS' words: "metal", "real", "si".
+// Unit styles: the units of files of atoms, by LAMMPS' names: "metal", "real", "si".
 #pragma once
 
 #include <boltzmann/core/dimension.hpp>
@@ -10,7 +10,7 @@
 
 namespace boltzmann {
 
-/// Units of length, mass, time and charge, from which others follow, and those that do not follow from them.
+/// Units of length, mass, time and charge, from which others are derived, and the exceptions.
 struct UnitStyle {
   std::string_view name, doc;
   std::string_view length, mass, time, charge;
@@ -20,7 +20,7 @@ struct UnitStyle {
   };
   std::span<Special const> special;
 
-  /// What a quantity of this dimension is in: "eV", "angstrom/ps"; empty for a pure number.
+  /// The unit of a quantity of this dimension: "eV", "angstrom/ps"; empty for a pure number.
   std::string unit(Dimension) const;
 };
 

@@ -32,8 +32,7 @@ struct Printed {
   Dimension dimension;
 };
 
-// The units that are printed, as a reader of each field expects them; of two that serve equally well, the first is
-// taken.
+// The units for output, as each field uses them; of two that serve equally well, the first is used.
 std::vector<Printed> const& printed_units() {  // long: a table
   static std::vector<Printed> const printed = [] {
     std::vector<Printed> all;
@@ -140,14 +139,14 @@ constexpr System systems[] = {
 constexpr System celestial_systems[] = {
     {"km", "Msun", "s", "K", "C"}, {"AU", "Msun", "d", "K", "C"}, {"pc", "Msun", "yr", "K", "C"}};
 
-// Units of atoms, in which nobody counts what is larger than a bacterium.
+// Units of atoms are used only for lengths below that of a bacterium.
 bool of_atoms(std::string const& name) {
   for (auto const* word : {"angstrom", "nm", "bohr", "amu", "m_e", "ps", "fs", "eV", "meV", "keV", "mol", "Ha"})
     if (name.find(word) != std::string::npos) return true;
   return false;
 }
 
-// The name of a scale that is a known unit; of larger things none of atoms.
+// The name of a scale that is a known unit; units of atoms are excluded for larger things.
 std::optional<std::string> exact_name(double si, Dimension d, bool atoms) {
   for (auto const& unit : printed_units())
     if (unit.dimension == d && fits(si, unit.si) && (atoms || !of_atoms(unit.name))) return unit.name;
@@ -218,7 +217,7 @@ UnitSystem UnitSystem::reduced() {
   return units;
 }
 
-// In long double, whose range of exponents no product of units leaves.
+// In long double, whose range of exponents no product of units exceeds.
 long double UnitSystem::unit(Dimension d) const {
   return integer_power(scale_.length, d.length) * integer_power(scale_.mass, d.mass) *
          integer_power(scale_.time, d.time) * integer_power(scale_.temperature, d.temperature) *
@@ -313,8 +312,8 @@ UnitSystem::Display UnitSystem::display(Dimension d) const {
   add(dimensions::temperature, scale_.temperature, d.temperature);
   if (all_known) return {composed(factors)};
 
-  // A number with a unit. Of all candidates: a handy number before another, then one whose six digits are the whole
-  // number, the shortest first.
+  // A number with a unit. Order of candidates: a handy number first, then a number that six digits represent exactly,
+  // then the shortest.
   Display best;
   std::size_t best_cost = 0;
   auto const consider = [&](std::string const& name, double si) {

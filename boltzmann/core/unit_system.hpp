@@ -1,5 +1,5 @@
-// The system of units that a simulation computes in: quantities become plain numbers on the way in, and numbers
-// quantities on the way out.
+// The system of units of a simulation: converts quantities to plain numbers on input, and numbers to quantities on
+// output.
 #pragma once
 
 #include <boltzmann/core/units.hpp>
@@ -10,7 +10,7 @@
 
 namespace boltzmann {
 
-/// Five units, of length, mass, time, temperature and charge; every other unit follows from them. Inner loops see plain
+/// Five units, of length, mass, time, temperature and charge; every other unit follows from them. Inner loops use plain
 /// numbers in these base units ("Unit Conversion", section 2.3 of the 1990 thesis).
 class UnitSystem {
  public:
@@ -23,7 +23,7 @@ class UnitSystem {
   /// SI.
   UnitSystem() = default;
 
-  /// A base of the user's own. Throws Error unless each unit is positive and finite.
+  /// Base units of your own. Throws Error unless each unit is positive and finite.
   UnitSystem(Quantity<dimensions::length> length, Quantity<dimensions::mass> mass, Quantity<dimensions::time> time,
              Quantity<dimensions::temperature> temperature = units::kelvin,
              Quantity<dimensions::charge> charge = units::elementary_charge);
@@ -65,28 +65,28 @@ class UnitSystem {
     return {to_si(number, d)};
   }
 
-  /// The plain number in this system of so many SI units of a dimension, and back. A reduced base converts nothing.
+  /// The plain number in this system of a number of SI units of a dimension, and the inverse. A reduced base converts
+  /// nothing.
   double from_si(double si, Dimension) const;
   double to_si(double number, Dimension) const;
 
-  /// How numbers of this system are shown to people: number * factor, in a unit that was chosen; else in the system's own
-  /// unit where it is made of known ones ("angstrom", "amu angstrom^2/ps^2"); else in a unit that people know. A reduced
-  /// base has none: "" and 1.
+  /// The display of numbers of this system: number * factor, in a chosen unit. Without one the system's own unit if it
+  /// is made of known ones ("angstrom", "amu angstrom^2/ps^2"), else a common unit. A reduced base has none: "" and 1.
   struct Display {
     std::string unit;
     double factor = 1;
   };
   Display display(Dimension) const;
-  /// From now on quantities of this dimension are shown in this unit, "kcal/mol". Error if it is of another dimension, or
+  /// Displays quantities of this dimension in this unit from now on: "kcal/mol". Error if it has another dimension, or
   /// the base is reduced.
   void show_in(Dimension, std::string const& unit);
-  /// A number of this system with its unit, for people: "20 ps"; where the unit is a number with a unit itself ("3.273
+  /// A number of this system with its unit, for display: "20 ps". If the unit is itself a number with a unit ("3.273
   /// fs"), the product ("65.46 fs").
   std::string text(double number, Dimension, int digits = 4) const;
 
-  /// The unit of this system itself, exact to six digits: "erg", "cm/s", "amu angstrom^2/ps^2" where the units of the
-  /// base are known ones; else a number with a unit, "1.804 angstrom", rounded to six digits; "" for a pure number and
-  /// in a reduced base. parse_quantity reads it back (with a "1 " before it where there is no number).
+  /// The unit of this system itself, exact to six digits: "erg", "cm/s", "amu angstrom^2/ps^2" if the base has named
+  /// units. Otherwise it is a number with a unit, "1.804 angstrom", rounded to six digits. It is "" for a pure number
+  /// and in a reduced base. parse_quantity reads it back (with a "1 " before it if there is no number).
   std::string unit_name(Dimension) const;
 
   Scale scale() const { return scale_; }
@@ -105,10 +105,10 @@ class UnitSystem {
 
   Scale scale_;
   bool reduced_ = false;
-  std::vector<Shown> shown_ = {};  // units of somebody's choice
+  std::vector<Shown> shown_ = {};  // units chosen by the user
 };
 
-/// The dimensions whose units of results can be chosen, by their names: "energy", "specific_energy".
+/// The dimensions whose display units can be chosen, by their names: "energy", "specific_energy".
 std::vector<std::pair<std::string, Dimension>> shown_dimensions();
 
 }  // namespace boltzmann

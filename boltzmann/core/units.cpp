@@ -74,7 +74,7 @@ char const* simple_name(Dimension d) {
   return nullptr;
 }
 
-/// "energy times a length", "force per charge", "energy times length^6"; empty if it is nothing so simple.
+/// "energy times a length", "force per charge", "energy times length^6"; empty if there is no name that simple.
 std::string compound_name(Dimension d) {
   using namespace dimensions;
   for (int const exponent : {d.length, d.mass, d.time, d.temperature, d.charge})

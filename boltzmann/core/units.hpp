@@ -1,4 +1,4 @@
-// Units: quantities whose dimensions the compiler checks, the units to write them in, and the constants of nature.
+// Units: quantities whose dimensions the compiler checks, units, and the constants of nature.
 #pragma once
 
 #include <boltzmann/core/dimension.hpp>
@@ -11,7 +11,7 @@
 namespace boltzmann {
 
 namespace detail {
-// Of its own type in a product, so that `360 * degree` is not also a product of two numbers.
+// A type of its own in a product, so that `360 * degree` is not also a product of two numbers.
 template <class N>
 concept Arithmetic = std::is_arithmetic_v<N>;
 

@@ -1,4 +1,4 @@
-// Words: the names under which users write the values of an enumeration, and what each of them means.
+// Words: the names of the values of an enumeration in scenarios, and their meanings.
 #pragma once
 
 #include <initializer_list>
@@ -17,11 +17,11 @@ struct Word {
   std::string_view name, doc;  ///< of one line
 };
 
-/// All values of an enumeration, in the order in which they are told.
+/// All values of an enumeration, in the order of their documentation.
 template <class Value>
 class Words {
  public:
-  /// `what` they are, for messages: "convention".
+  /// `what` describes them in messages: "convention".
   Words(std::string_view what, std::initializer_list<Word<Value>> words) : what_(what), words_(words) {}
 
   auto begin() const { return words_.begin(); }

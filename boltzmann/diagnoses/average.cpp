@@ -1,4 +1,4 @@
-// Means over rows, and what a run says of them.
+// Means over rows, and their report at the end of a run.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/diagnoses/average.hpp>
 #include <boltzmann/diagnoses/chosen.hpp>

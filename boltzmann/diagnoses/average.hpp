@@ -1,4 +1,4 @@
-// Average: columns of the other diagnoses over a run, with an error that knows that rows are not independent.
+// Average: means over a run of the columns of other diagnoses, with errors that account for correlated rows.
 #pragma once
 
 #include <boltzmann/diagnoses/diagnosis.hpp>
@@ -18,18 +18,18 @@ struct AverageOptions {
 };
 
 /// Columns for each: its mean over the rows so far, the standard error of the mean by blocks (BlockSums), and their
-/// ratio, for stop conditions; errors are NaN while the series is too short to know one. Rows in which the column is no
-/// finite number are left out. Table: the error by the length of blocks, which levels off where blocks are independent.
+/// ratio, for stop conditions. Errors are NaN while the series is too short. Rows in which the column is not finite are
+/// ignored. Table: the error by the length of blocks, which levels off when blocks are independent.
 class Average final : public Diagnosis {
  public:
   using Options = AverageOptions;
-  /// `before`: the columns of all diagnoses before this one, in their order (Recording::columns()). Error if one isn't
-  /// there.
+  /// `before`: the columns of all diagnoses before this one, in their order (Recording::columns()). Error if a column
+  /// does not exist.
   Average(std::vector<Column> const& before, Options const& options);
 
   std::vector<Column> columns() const override;
   double since() const { return since_; }
-  /// `values` begins with the time and those of all diagnoses before.
+  /// `values` begins with the time and the values of all diagnoses before.
   void measure(Sample const& sample, std::vector<double>& values) override;
   std::vector<GatheredTable> tables() const override;
   std::vector<std::string> report(UnitSystem const& units) const override;

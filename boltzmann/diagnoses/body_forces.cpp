@@ -1,4 +1,4 @@
-// Differences from look to look.
+// Differences between successive samples.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/diagnoses/body_forces.hpp>
 
@@ -32,8 +32,8 @@ std::vector<Column> BodyForces::columns() const {
 
 namespace {
 
-/// The force of pressure on a body whose sheet was another one some time ago. Pressures of neighbouring panels differ by
-/// half of what goes on along each of them.
+/// The pressure force on a body, from the change of its sheet since a time. Pressures of neighbouring panels differ by
+/// half of the changes along each of them.
 std::array<double, 2> pressure_force(AnyEnsemble const& body, double const* before, double const* shed, double passed) {
   int const normal = body.field("normal").offset, length = body.field("length").offset;
   int const sheet = body.field("sheet").offset;
@@ -43,7 +43,7 @@ std::array<double, 2> pressure_force(AnyEnsemble const& body, double const* befo
     double const* const row = body.row(i);
     return -(row[sheet] - before[i] + shed[i]) / passed * row[length];
   };
-  for (std::size_t i = 0; i < count; ++i) around += slope(i);  // nothing, but for rounding: pressures have one value
+  for (std::size_t i = 0; i < count; ++i) around += slope(i);  // zero up to rounding, as the pressure is single-valued
   for (std::size_t i = 0; i < count; ++i) {
     double const* const row = body.row(i);
     double const half = 0.5 * (slope(i) - around / static_cast<double>(count));
@@ -60,7 +60,7 @@ void BodyForces::follow(Sample const& sample) {
   if (!last_) return;
   double const passed = sample.time - last_->followed_until;
   if (passed == 0) return;
-  // Within a step circulation changes with kutta; at its end vortices may leave.
+  // Within a step kutta changes the circulation; at its end vortices may be removed.
   double const now = flow_impulse(sample.ensembles).circulation, gone = sample.taken.circulation - last_->gone;
   last_->circulation_time += 0.5 * (last_->circulation + now + gone) * passed;
   last_->circulation = now, last_->gone = sample.taken.circulation;

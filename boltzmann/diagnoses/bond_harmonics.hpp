@@ -1,4 +1,4 @@
-// Bond harmonics: what the directions to a particle's neighbours add up to.
+// Bond harmonics: sums of harmonics over the directions to a particle's neighbours.
 #pragma once
 
 #include <cmath>
@@ -34,7 +34,7 @@ class BondHarmonics {
   }
   double count() const { return count_; }
   std::complex<double> mean() const { return sums_[0] / count_; }
-  /// q_l or psi_l; NaN of no direction.
+  /// q_l or psi_l; NaN without directions.
   double order() const {
     if (count_ == 0) return std::numeric_limits<double>::quiet_NaN();
     if (dimension_ == 2) return std::abs(mean());

@@ -1,4 +1,4 @@
-// Bond order: how far the directions to a particle's neighbours are those of a crystal.
+// Bond order: how similar the directions to a particle's neighbours are to those of a crystal.
 #pragma once
 
 #include <boltzmann/diagnoses/diagnosis.hpp>
@@ -10,22 +10,21 @@
 namespace boltzmann {
 
 struct BondOrderOptions {
-  std::vector<std::string> ensembles = {};  ///< none: all particles, one: those of it
+  std::vector<std::string> ensembles = {};  ///< empty: all particles; one: its particles
   std::string label = {};                   ///< before the columns' names; empty: the ensemble
-  double range = 0;                         ///< neighbours are within it; positive
-  std::size_t order = 6;                    ///< l: 4 sees squares and cubes, 6 triangles and close packing
+  double range = 0;                         ///< of neighbours; positive
+  std::size_t order = 6;                    ///< l: 4 detects squares and cubes, 6 triangles and close packing
 };
 
-/// 3D: q_l of each particle by the spherical harmonics of the directions to its n neighbours,
-/// q_l^2 = 4 pi / (2 l + 1) sum_m |sum_j Y_lm / n|^2, and the same of all bonds of the system together (Steinhardt,
-/// Nelson and Ronchetti 1983): fcc 0.575, hcp 0.485, bcc (8 neighbours) 0.629 and the icosahedron 0.663 for l = 6; a
-/// liquid has none of its own, only some around each. 2D: psi_l = |sum_j exp(i l theta_j) / n|, and the length of the
-/// mean over particles. Columns: the mean over particles with a neighbour, that of the whole, and the mean number of
-/// neighbours.
+/// 3D: q_l of each particle by the spherical harmonics of the directions to its n neighbours, q_l^2 = 4 pi / (2 l + 1)
+/// sum_m |sum_j Y_lm / n|^2, and the same for all bonds of the system together (Steinhardt, Nelson and Ronchetti 1983).
+/// For l = 6 fcc has 0.575, hcp 0.485, bcc (8 neighbours) 0.629 and the icosahedron 0.663; in a liquid the global one
+/// vanishes, the local ones do not. 2D: psi_l = |sum_j exp(i l theta_j) / n|, and the magnitude of the mean over
+/// particles. Columns: the mean over particles with a neighbour, the global value, and the mean number of neighbours.
 class BondOrder final : public Diagnosis {
  public:
   using Options = BondOrderOptions;
-  /// Error in 1D, if the ensemble isn't there, or for a range or an order out of range.
+  /// Error in 1D, if the ensemble does not exist, or for an invalid range or order.
   BondOrder(std::vector<AnyEnsemble const*> const& available, Options options);
 
   std::vector<Column> columns() const override;
@@ -33,7 +32,8 @@ class BondOrder final : public Diagnosis {
   void check(Box const& box) const override;
   void measure(Sample const& sample, std::vector<double>& values) override;
 
-  /// Of each particle, in the order of the ensembles: its own order (NaN without neighbours) and its neighbours.
+  /// For each particle, in the order of the ensembles: its own order (NaN without neighbours) and its number of
+  /// neighbours.
   struct Local {
     std::vector<double> order, neighbours;
     double whole;

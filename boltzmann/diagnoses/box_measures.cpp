@@ -1,4 +1,4 @@
-// One row of the box.
+// One row with the measures of the box.
 #include <boltzmann/diagnoses/box_measures.hpp>
 #include <boltzmann/diagnoses/measures.hpp>
 

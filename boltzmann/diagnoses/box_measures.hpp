@@ -1,5 +1,4 @@
-// The box as it is: its volume, its lengths and what is in it per volume, for boxes that are stretched or have walls that
-// move.
+// The box: its volume, its lengths and the mass density, for boxes that are stretched or have moving walls.
 #pragma once
 
 #include <boltzmann/diagnoses/diagnosis.hpp>

@@ -19,11 +19,11 @@ void check_chains(AnyEnsemble const& ensemble, std::size_t length) {
                             length));
 }
 
-/// Of one ensemble.
+/// For one ensemble.
 struct ChainSizes {
   ExactSum ends, gyration, bonds;
 
-  /// One chain, from particle `first` on.
+  /// Adds one chain, from particle `first` on.
   void add(AnyEnsemble const& ensemble, Box const& box, std::size_t first, std::size_t length) {
     Vector<3> at{0, 0, 0}, sum{0, 0, 0};
     double squares = 0;

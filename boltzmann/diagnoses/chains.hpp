@@ -1,4 +1,4 @@
-// Chains: how far the ends of polymers are from each other, and how wide they are.
+// Chains: the end-to-end distance and the size of polymers.
 #pragma once
 
 #include <boltzmann/diagnoses/diagnosis.hpp>
@@ -8,12 +8,12 @@
 
 namespace boltzmann {
 
-/// Columns of each ensemble whose particles are chains of `length`, one behind the other: the mean squares of the distance
-/// from end to end and of the radius of gyration, each particle counted alike, and the root of the mean square bond. Bonds
-/// go over periodic axes by the shortest way.
+/// Columns for each ensemble whose particles are consecutive chains of `length`: the mean squares of the end-to-end
+/// distance and of the radius of gyration, each particle with the same weight, and the root of the mean square bond.
+/// Bonds cross periodic axes by the shortest vector.
 class Chains final : public Diagnosis {
  public:
-  /// Of these ensembles by name, or of all there are. Error if one isn't there, or is no whole number of chains, or the
+  /// For these ensembles by name, or for all. Error if one does not exist, or is no whole number of chains, or the
   /// length is below 2.
   Chains(std::vector<AnyEnsemble const*> const& available, std::vector<std::string> const& names, std::size_t length);
 

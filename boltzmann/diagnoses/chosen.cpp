@@ -1,4 +1,4 @@
-// Names of ensembles, and states of diagnoses number by number.
+// Names of ensembles, and reading of states of diagnoses.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/diagnoses/chosen.hpp>
 

@@ -1,4 +1,4 @@
-// Chosen ensembles: who a diagnosis looks at, by name, and the names of what it gives.
+// Chosen ensembles: selects the ensembles of a diagnosis by name, and names its columns and files.
 #pragma once
 
 #include <boltzmann/diagnoses/diagnosis.hpp>
@@ -11,25 +11,25 @@
 
 namespace boltzmann {
 
-/// Error that lists the names there are.
+/// Error with all names if there is none.
 AnyEnsemble const& ensemble_named(std::vector<AnyEnsemble const*> const& available, std::string const& name);
-/// The names, all ensembles' if there are none. Error if one is not there, or there is nobody to look at.
+/// The names, or those of all ensembles if empty. Error if one does not exist, or there are no ensembles.
 std::vector<std::string> chosen_names(std::vector<AnyEnsemble const*> const& available,
                                       std::vector<std::string> const& names);
-/// Its place in the sample. Error if it is not in the simulation any more.
+/// Its index in the sample. Error if it is no longer in the simulation.
 std::size_t index_in(Sample const& sample, std::string const& name);
 AnyEnsemble const& ensemble_of(Sample const& sample, std::string const& name);
 
-/// Numbers of particles of one ensemble: of the one that is named, or that there is. Error if there are several, or one has
-/// no such particle. Nothing without numbers.
+/// Checks numbers of particles of one ensemble: of the named one, or of the only one. Error if there are several, or it
+/// has no such particle. Does nothing without numbers.
 void check_chosen(std::vector<AnyEnsemble const*> const& available, std::vector<std::string> const& names,
                   std::span<std::uint32_t const> particles);
 
-/// Two groups of one ensemble, the sides of pairs: the same, and Error if the first is missing, or they have a particle in
-/// common or twice.
+/// Checks two groups of one ensemble, the sides of pairs, in the same way. Also an Error if the first is missing, or a
+/// particle occurs twice.
 void check_chosen(std::vector<AnyEnsemble const*> const& available, std::vector<std::string> const& names,
                   std::span<std::uint32_t const> particles, std::span<std::uint32_t const> partners);
-/// Those of the group; all if there is none.
+/// The members of the group; all particles if it is empty.
 std::vector<std::uint32_t> members_of(AnyEnsemble const& ensemble, std::span<std::uint32_t const> particles);
 
 /// "a, b" -> {"a", "b"}.
@@ -41,20 +41,20 @@ std::string labelled(std::string const& label, std::string const& what);
 /// "radial-distribution-Na-Cl": the file of a diagnosis with this label, of letters, digits, '-', '_' and '.'.
 std::string file_name(std::string const& kind, std::string const& label);
 
-/// Numbers of a checkpoint's state, one after the other. Error where there are none left, or left over.
+/// Reads the numbers of a checkpoint's state in order. Error if there are too few or too many.
 class StateReader {
  public:
   explicit StateReader(std::span<double const> state) : left_(state) {}
   double next() { return next(1)[0]; }
   std::span<double const> next(std::size_t count);
-  /// A list behind its length.
+  /// A list with its length before it.
   std::vector<double> list();
   void finish() const;
 
  private:
   std::span<double const> left_;
 };
-/// The same the other way.
+/// The inverse.
 void add_list(std::vector<double>& state, std::span<double const> list);
 
 }  // namespace boltzmann

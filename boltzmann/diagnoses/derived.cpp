@@ -1,4 +1,4 @@
-// Names to numbers: the table of quantities of a class and how each is computed.
+// From names to numbers: the table of quantities of a class and their computation.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/diagnoses/derived.hpp>
 #include <boltzmann/diagnoses/measures.hpp>
@@ -21,7 +21,7 @@ struct DerivedQuantity {
   std::function<double(std::size_t)> value;
 };
 
-/// The component of a vector as a word: x, y, z; of a tensor xx, xy, ...; of anything else numbered from 3.
+/// The component of a vector as a word: x, y, z; of a tensor xx, xy, ...; otherwise numbers from 3 on.
 std::string component_name(Field const& field, int dimension, int component) {
   if (dimension > 1 && field.components == dimension * dimension)
     return {"xyz"[component / dimension], "xyz"[component % dimension]};
@@ -82,7 +82,7 @@ std::vector<DerivedQuantity> table_of(AnyEnsemble const& ensemble, std::span<dou
   return table;
 }
 
-/// A formula with what it reads of a particle.
+/// A formula with the fields of a particle that it reads.
 class QuantityFormula {
  public:
   QuantityFormula(AnyEnsemble const& ensemble, std::string_view text, UnitSystem const& units,
@@ -129,7 +129,7 @@ std::shared_ptr<QuantityFormula> read_formula_of(AnyEnsemble const& ensemble, st
   try {
     return std::make_shared<QuantityFormula>(ensemble, text, UnitSystem::si(), potential_energy);
   } catch (FormulaError const& error) {
-    try {  // in pure numbers there is nothing to check
+    try {  // in pure numbers nothing needs a check
       return std::make_shared<QuantityFormula>(ensemble, text, UnitSystem::reduced(), potential_energy);
     } catch (FormulaError const&) {
       throw error;

@@ -1,4 +1,5 @@
-// Derived quantities: every field of a class and what follows from them (speed, energies), by name, for all particles.
+// Derived quantities: every field of a class and quantities computed from fields (speed, energies), by name, for all
+// particles.
 #pragma once
 
 #include <boltzmann/core/dimension.hpp>
@@ -12,30 +13,32 @@
 
 namespace boltzmann {
 
-/// What a name stands for.
+/// The meaning of a name.
 struct QuantityMeaning {
   std::string name;   ///< "velocity.x", "kinetic-energy"
   std::string label;  ///< for axes and columns: "velocity x", "kinetic energy"
   Dimension dimension;
 };
 
-/// All names that are allowed for an ensemble: its fields ("mass", "position.x", "stress.xy"; in 1D also "position"),
-/// "speed", "kinetic-energy" (with mass and velocity), "internal-energy" (with mass and specific_energy), "influence.x"
-/// (a force for classes with mass and velocity, else a velocity: its first dimension() components) and
-/// "potential-energy". A class without velocity has its influence for "velocity.x".
+/// All valid names for an ensemble:
+/// - its fields: "mass", "position.x", "stress.xy"; in 1D also "position";
+/// - "speed", "potential-energy", "kinetic-energy" (with mass and velocity), "internal-energy" (with mass and
+/// specific_energy);
+/// - "influence.x": a force for classes with mass and velocity, else a velocity (its first dimension() components).
+/// For a class without velocity "velocity.x" is its influence.
 std::vector<QuantityMeaning> quantities(AnyEnsemble const& ensemble);
 
-/// Instead of a name there may be a formula of these quantities, "0.5*mass*(velocity.x - 1)^2", with '_' for '-'
-/// ("kinetic_energy + potential_energy"), vectors ("norm(influence)/mass"), x, y, z and r (ParticleNames). Its dimensions
-/// are checked and its numbers may have units if `units` are told and not reduced.
+/// A name may be replaced by a formula of these quantities, "0.5*mass*(velocity.x - 1)^2", with '_' for '-'
+/// ("kinetic_energy + potential_energy"), vectors ("norm(influence)/mass"), x, y, z and r (ParticleNames). If `units`
+/// are given and not reduced, its dimensions are checked and its numbers may have units.
 ///
-/// Meaning of one name, or formula; Error with all names that are allowed, and the nearest.
+/// The meaning of one name, or formula; Error with all valid names, and the nearest.
 QuantityMeaning quantity_meaning(AnyEnsemble const& ensemble, std::string_view name, UnitSystem const* units = nullptr);
-/// Whether there is such a quantity.
+/// True if there is such a quantity.
 bool has_quantity(AnyEnsemble const& ensemble, std::string_view name, UnitSystem const* units = nullptr);
 
 /// The quantity of every particle, in order. "potential-energy" comes from the scheme: pass the ensemble's vector of
-/// EnergyAndVirial::per_particle; without it (or with another length) the values are NaN. Error as above.
+/// EnergyAndVirial::per_particle; otherwise (or with another length) the values are NaN. Error as above.
 std::vector<double> quantity(AnyEnsemble const& ensemble, std::string_view name,
                              std::span<double const> potential_energy = {}, UnitSystem const* units = nullptr);
 

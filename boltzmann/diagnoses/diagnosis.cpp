@@ -1,4 +1,4 @@
-// Why a diagnosis can't have what it needs.
+// Reasons why a diagnosis lacks its data.
 #include <boltzmann/diagnoses/diagnosis.hpp>
 
 #include <boltzmann/core/error.hpp>

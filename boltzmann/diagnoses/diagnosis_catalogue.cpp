@@ -1,4 +1,4 @@
-// The table of diagnoses, and what some of them are made with.
+// The table of diagnoses, and functions that make some of them.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/diagnoses/average.hpp>
 #include <boltzmann/diagnoses/body_forces.hpp>
@@ -35,7 +35,7 @@ std::unique_ptr<Diagnosis> make_heat_flux(DiagnosisParameters const& parameters)
                                     HeatFluxOptions{axis, parameters.conductivity, parameters.since});
 }
 
-/// The first axis where none is named.
+/// The first axis by default.
 int axis_of(DiagnosisParameters const& parameters) { return parameters.axis.empty() ? 0 : parameters.axis[0] - 'x'; }
 
 std::unique_ptr<Diagnosis> make_slab(DiagnosisParameters const& parameters) {
@@ -67,7 +67,7 @@ std::unique_ptr<Diagnosis> make_body_forces(DiagnosisParameters const& parameter
   return std::make_unique<BodyForces>(parameters.available, parameters.stream, parameters.length);
 }
 
-/// Where nothing is said, what its options begin with.
+/// The default if the option is not set.
 std::size_t or_usual(std::size_t said, std::size_t usual) { return said > 0 ? said : usual; }
 
 std::unique_ptr<Diagnosis> make_radial_distribution(DiagnosisParameters const& parameters) {

@@ -1,4 +1,4 @@
-// The catalogue of diagnoses: from a word of a scenario to a measuring instrument.
+// The catalogue of diagnoses: from a name in a scenario to a measuring instrument.
 #pragma once
 
 #include <boltzmann/diagnoses/diagnosis.hpp>
@@ -15,21 +15,21 @@ namespace boltzmann {
 struct DiagnosisKind {
   std::string name;      ///< the word in scenarios
   std::string doc;       ///< one line
-  OptionTable options;   ///< the members of DiagnosisParameters that it looks at
-  bool of_mesh = false;  ///< it looks at what a mesh has on its nodes
-  bool of_flow = false;  ///< and at the law by which vortices act
+  OptionTable options;   ///< the members of DiagnosisParameters that it uses
+  bool of_mesh = false;  ///< it uses fields on the nodes of a mesh
+  bool of_flow = false;  ///< it uses the law of vortices
 };
 
-/// All kinds there are.
+/// All kinds.
 std::vector<DiagnosisKind> const& diagnosis_kinds();
 
-/// What kinds that are of_flow need. Error if an axis is periodic, or if vortices act by several laws.
+/// Sets the vortices for kinds that are of_flow. Error if an axis is periodic, or if vortices have several laws.
 void find_vortices(DiagnosisParameters& parameters, std::vector<Scheme*> const& schemes);
 
-/// The instrument of that kind. Error naming the kinds, ensembles or quantities there are, if one is unknown or
-/// missing, or a parameter is given that the kind does not look at.
+/// The instrument of that kind. Error with the existing kinds, ensembles or quantities, if one is unknown or missing,
+/// or for a parameter that the kind does not use.
 ///
-/// Where a law gives no energy (EnergyAndVirial::unknown), energies are NaN and the columns stay; likewise a mean over
+/// If a law gives no energy (EnergyAndVirial::unknown), energies are NaN and the columns remain; likewise a mean over
 /// no particles.
 std::unique_ptr<Diagnosis> make_diagnosis(std::string_view kind, DiagnosisParameters const& parameters);
 

@@ -1,4 +1,4 @@
-// Displacements from look to look, added up.
+// Displacements, accumulated from sample to sample.
 #include <boltzmann/diagnoses/chosen.hpp>
 #include <boltzmann/diagnoses/diffusion.hpp>
 

@@ -1,4 +1,4 @@
-// Diffusion: how far particles get from where they were.
+// Diffusion: displacements of particles from their initial positions.
 #pragma once
 
 #include <boltzmann/diagnoses/diagnosis.hpp>
@@ -9,14 +9,14 @@
 
 namespace boltzmann {
 
-/// Columns of each ensemble: mean square displacement since the first look at or after the time `since`, relative to
-/// the ensemble's mean displacement, and the diffusion coefficient D of <r^2> = 2 d D t + constant in d dimensions, by
-/// least squares over the looks so far (Einstein 1905). Particles are followed through periodic axes: between two calls
-/// of measure() or follow(), which a Recording makes after each step, none may get further than half of one. NaN before
-/// there is enough to know.
+/// Columns for each ensemble: the mean square displacement since the first sample at or after the time `since`,
+/// relative to the ensemble's mean displacement, and the diffusion coefficient D of <r^2> = 2 d D t + constant in d
+/// dimensions, by least squares over the samples so far (Einstein 1905). Particles are followed through periodic axes:
+/// between two calls of measure() or follow(), which a Recording makes after each step, none may move further than half
+/// of one. NaN while there are too few samples.
 class Diffusion final : public Diagnosis {
  public:
-  /// Of these ensembles by name, or of all there are. Error if one isn't there.
+  /// For these ensembles by name, or for all. Error if one does not exist.
   Diffusion(std::vector<AnyEnsemble const*> const& available, std::vector<std::string> const& names, double since);
 
   std::vector<Column> columns() const override;
@@ -27,23 +27,23 @@ class Diffusion final : public Diagnosis {
   bool follows() const override { return true; }
   void follow(Sample const& sample) override;
   bool by_number() const override { return true; }
-  /// Nothing before the first look; then of each ensemble the number of particles, where each was at the last look and
-  /// how far it has got, and of its line the sums.
+  /// Empty before the first sample. Then for each ensemble the number of particles, their positions at the last sample
+  /// and their displacements, and the sums of the fit.
   std::vector<double> state() const override;
   void restore(std::span<double const> state) override;
 
  private:
   struct Followed {
     std::string name;
-    std::vector<double> last, displacement;  // dimension numbers a particle
+    std::vector<double> last, displacement;  // dimension() numbers a particle
     LineSums line;
   };
 
   int dimension_;
   double since_;
-  double begin_ = 0;  // the time of the first look
+  double begin_ = 0;  // time of the first sample
   bool begun_ = false;
-  bool prefixed_;  // whether columns say of which ensemble they are
+  bool prefixed_;  // columns have the names of ensembles
   std::vector<Followed> followed_;
 };
 

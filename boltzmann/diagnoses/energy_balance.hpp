@@ -1,4 +1,4 @@
-// The energy balance: what the particles have, what moving walls and heat baths have given, and what is left.
+// The energy balance: the energy of the particles, the energy given by moving walls and heat baths, and the difference.
 #pragma once
 
 #include <boltzmann/diagnoses/diagnosis.hpp>
@@ -8,7 +8,7 @@
 namespace boltzmann {
 
 /// Columns: the energy of all particles (kinetic, potential, external and internal), the work of moving walls and the
-/// heat of baths since the start of the run, and the balance, the first less the others, which a run conserves. Where a
+/// heat of baths since the start of the run, and the balance, the first minus the others, which a run conserves. If a
 /// law gives no energy (EnergyAndVirial::unknown), the first and the last are NaN.
 class EnergyBalance final : public Diagnosis {
  public:

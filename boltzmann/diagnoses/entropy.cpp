@@ -16,13 +16,13 @@ namespace {
 
 constexpr double max_nodes = 4e6;
 
-/// <v^2> and <(v - <v>)^2> at points, the density and what else is asked for, in one go.
+/// <v^2> and <(v - <v>)^2> at points, the density and further averages, in one pass.
 struct Averages {
   std::vector<double> density, square, fluctuation;
   std::vector<std::vector<double>> others;
 };
 
-/// The components of the velocity and its square, with what walls make of them.
+/// The components of the velocity and its square, with their values in images beyond walls.
 std::vector<SmoothColumn> velocity_columns(SmoothField const& field) {
   std::vector<SmoothColumn> columns;
   columns.reserve(static_cast<std::size_t>(field.dimension()) + 1);
@@ -50,7 +50,7 @@ Averages averages(SmoothField const& field, std::span<double const> points,
   for (std::size_t p = 0; p < result.square.size(); ++p) {
     double mean = 0;
     for (std::size_t a = 1; a <= axes; ++a) mean += square(fields[a].value[p]);
-    double const difference = result.square[p] - mean;  // rounding may leave less than nothing
+    double const difference = result.square[p] - mean;  // rounding may make it negative
     result.fluctuation.push_back(difference < 0 ? 0 : difference);
   }
   for (std::size_t c = at_square + 1; c < fields.size(); ++c) result.others.push_back(std::move(fields[c].value));

@@ -21,7 +21,7 @@ void each_node(MeshGrid const& grid, F const& f) {
       for (std::size_t i = 0; i < grid.nodes[0]; ++i) f(node++, i, j, k);
 }
 
-/// The share of each node of an axis in an integral: half a cell for the ends of axes that are not periodic.
+/// The weight of each node of an axis in an integral: half a cell for the ends of axes that are not periodic.
 std::vector<double> shares(MeshGrid const& grid, int axis) {
   std::vector<double> shares(grid.nodes[axis], 1.0);
   if (axis < grid.dimension && !grid.periodic[axis] && shares.size() > 1) shares.front() = shares.back() = 0.5;
@@ -75,7 +75,7 @@ std::complex<double> field_mode(MeshQuantity const& quantity, std::array<int, 3>
   MeshGrid const& grid = quantity.grid();
   std::array<std::vector<std::complex<double>>, 3> wave;
   double weight = 1;
-  bool real = true;  // the wave is its own partner of the opposite mode
+  bool real = true;  // the wave equals its own conjugate
   for (int a = 0; a < 3; ++a) {
     auto const n = static_cast<std::int64_t>(grid.nodes[a]);
     if (mode[a] != 0 && (a >= grid.dimension || !grid.periodic[a]))
@@ -90,7 +90,7 @@ std::complex<double> field_mode(MeshQuantity const& quantity, std::array<int, 3>
     auto const share = shares(grid, a);
     double total = 0;
     for (std::int64_t j = 0; j < n; ++j) {
-      // The angle from a whole number, so that it is exact for any node.
+      // The angle from an integer, so that it is exact for any node.
       double const turn = static_cast<double>((mode[a] * j) % n) / static_cast<double>(n);
       wave[a].push_back(share[static_cast<std::size_t>(j)] * std::polar(1.0, -2 * std::numbers::pi * turn));
       total += share[static_cast<std::size_t>(j)];

@@ -1,4 +1,4 @@
-// Field measures: what a mesh's density, potential and field amount to, as plain functions.
+// Field measures: functions of a mesh's density, potential and field.
 #pragma once
 
 #include <boltzmann/schemes/mesh/mesh_field.hpp>
@@ -12,7 +12,7 @@
 
 namespace boltzmann {
 
-/// The quantities that a mesh has, one number on each node: "density", "potential", "field.x", "field.y", ...
+/// The quantities of a mesh, one number on each node: "density", "potential", "field.x", "field.y", ...
 std::vector<std::string> mesh_quantities(std::span<MeshField const* const> fields);
 
 /// One of them.
@@ -26,17 +26,18 @@ struct MeshQuantity {
   Dimension dimension() const { return field->dimension; }
 };
 
-/// The quantity of that name. Error with the names there are, or that there is no mesh.
+/// The quantity of that name. Error with the existing names, or if there is no mesh.
 MeshQuantity mesh_quantity(std::span<MeshField const* const> fields, std::string_view name);
 
-/// (1/2) integral of rho phi dV: the energy of the field, (1/2 C) integral of E^2 dV with div E = C rho, where the box
-/// is periodic or its walls are conductors at zero (or the field far away is none). Nodes on the walls of axes that are
-/// not periodic count half. Error if the mesh has no density or no potential.
+/// (1/2) integral of rho phi dV: the energy of the field. It equals (1/2 C) integral of E^2 dV with div E = C rho if
+/// the box is periodic, its walls are conductors at zero, or the distant field vanishes. Nodes on the walls of axes
+/// that are not periodic have half weight. Error if the mesh has no density or no potential.
 double field_energy(std::span<MeshField const* const> fields);
 
-/// The wave with so many periods along each axis (negative ones run the other way): c such that the quantity's part is
-/// Re(c exp(i k x)), x from the low edge: a cosine of amplitude A gives c = A, a sine -i A. Mode zero along all axes is
-/// the mean. Error if a mode is not zero along an axis that is not periodic, or beyond half the number of nodes.
+/// The wave with this number of periods along each axis (negative: in the opposite direction): c such that the
+/// quantity's part is Re(c exp(i k x)), x from the low edge. A cosine of amplitude A gives c = A, a sine -i A. Mode
+/// zero along all axes is the mean. Error if a mode is not zero along an axis that is not periodic, or beyond half the
+/// number of nodes.
 std::complex<double> field_mode(MeshQuantity const& quantity, std::array<int, 3> const& mode);
 
 /// The mean of a quantity over all other axes, at each node of one axis.

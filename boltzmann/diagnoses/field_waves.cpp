@@ -1,4 +1,4 @@
-// Real lines along x, complex ones along y and z.
+// Real transforms along x, complex ones along y and z.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/fourier.hpp>
 #include <boltzmann/diagnoses/field_waves.hpp>
@@ -90,7 +90,7 @@ FieldWaves::Power FieldWaves::power() const {
     for (std::size_t y = 0; y < grid_.nodes[1]; ++y)
       for (std::size_t x = 0; x < half_; ++x, ++at) {
         double const k = std::hypot(signed_number(0, x), signed_number(1, y), signed_number(2, z));
-        // Waves that are not stored run the other way along x, and are as strong.
+        // Waves that are not stored have the opposite direction along x, and the same power.
         double const twice = x == 0 || 2 * x == grid_.nodes[0] ? 1 : 2;
         auto const interval = std::min(nearest_interval(k), result.power.size() - 1);
         result.power[interval] += twice * std::norm(amplitude_[at]);

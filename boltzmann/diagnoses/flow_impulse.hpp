@@ -1,4 +1,4 @@
-// The impulse of a plane flow, by which the forces on bodies in it are known.
+// The impulse of a plane flow, from which forces on bodies follow.
 #pragma once
 
 #include <boltzmann/particles/ensemble.hpp>
@@ -22,7 +22,7 @@ struct FlowImpulse {
 };
 FlowImpulse flow_impulse(std::span<AnyEnsemble* const> ensembles);
 
-/// Whether it is of panels, the outline of a body.
+/// True for panels, the outline of a body.
 bool is_body(AnyEnsemble const& ensemble);
 
 }  // namespace boltzmann

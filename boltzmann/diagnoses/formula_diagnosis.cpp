@@ -1,4 +1,4 @@
-// What somebody types, evaluated for the particles of each ensemble: means and sums, and histograms.
+// Formulas, evaluated for the particles of each ensemble: means and sums, and histograms.
 #include <boltzmann/diagnoses/formula_diagnosis.hpp>
 
 #include <boltzmann/particles/particle_formula.hpp>
@@ -12,7 +12,7 @@
 namespace boltzmann {
 namespace {
 
-/// What may stand in a diagnosis' formula: fields, time, parameters, parts.
+/// The names in a diagnosis' formula: fields, time, parameters, parts.
 ParticleNames names_for(AnyEnsemble const& ensemble, DiagnosisParameters const& parameters) {
   ParticleNames names(ensemble.fields(), ensemble.dimension(), parameters.units);
   names.add_time();
@@ -35,7 +35,7 @@ ParticleNames names_for(AnyEnsemble const& ensemble, DiagnosisParameters const& 
   return names;
 }
 
-/// Of each ensemble that is named or there is, or of particles of one: what is found of their rows.
+/// Base of diagnoses of the rows of each chosen ensemble, or of chosen particles of one.
 class OfEnsembles : public Diagnosis {
  public:
   explicit OfEnsembles(DiagnosisParameters const& parameters)
@@ -87,7 +87,7 @@ class OfEnsembles : public Diagnosis {
   double const* row(AnyEnsemble const& ensemble, std::size_t k) const {
     return ensemble.row(particles_.empty() ? k : particles_[k]);
   }
-  /// What its columns are called.
+  /// The name of its columns.
   std::string title(std::size_t e) const { return ensembles_.size() == 1 ? label_ : ensembles_[e] + " " + label_; }
   std::vector<std::string> const& ensembles() const { return ensembles_; }
 

@@ -1,4 +1,4 @@
-// Fluxes of the whole system from row to row.
+// Fluxes of the whole system for each row.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/exact_sum.hpp>
 #include <boltzmann/diagnoses/chosen.hpp>
@@ -16,7 +16,7 @@
 namespace boltzmann {
 namespace {
 
-/// The symmetric stress without its trace, times the volume: D x D numbers.
+/// The symmetric traceless stress, times the volume: D x D numbers.
 std::vector<double> shear_stress(Sample const& sample, int D) {
   Tensor3 stress = kinetic_stress(sample.ensembles);
   double trace = 0;

@@ -1,4 +1,4 @@
-// Transport coefficients of Green and Kubo: how long a flux that the whole system has remembers itself.
+// Transport coefficients by Green-Kubo: the autocorrelation of fluxes of the whole system.
 #pragma once
 
 #include <boltzmann/core/words.hpp>
@@ -13,9 +13,9 @@
 namespace boltzmann {
 
 enum class Transport {
-  viscosity,          ///< of shear, by the stress without its trace
+  viscosity,          ///< of shear, by the traceless stress
   conductivity,       ///< electrical, by the current of charges
-  heat_conductivity,  ///< by the flux of energy, of one kind of particles that influence each other by pairs
+  heat_conductivity,  ///< by the flux of energy, for one class of particles with pair influences
 };
 Words<Transport> const& transport_words();
 
@@ -26,16 +26,16 @@ struct GreenKuboOptions {
 };
 
 /// The integral over the lag of a flux's autocorrelation in equilibrium (Kubo 1957), in D dimensions, volume V:
-/// viscosity: <P(0):P(t)> V / ((D - 1)(D + 2) k T), P the symmetric stress without its trace (Daivis and Evans 1994);
+/// viscosity: <P(0):P(t)> V / ((D - 1)(D + 2) k T), P the symmetric traceless stress (Daivis and Evans 1994);
 /// conductivity: <J(0).J(t)> / (D V k T), J = sum q v;
-/// heat conductivity: the same of J = sum (e v + W v) over T once more, e a particle's energy and W its half of its
-/// pairs' virial (Irving and Kirkwood), velocities relative to the common one.
+/// heat conductivity: the same for J = sum (e v + W v), divided by T once more, e a particle's energy and W its half of
+/// its pairs' virial (Irving and Kirkwood), velocities relative to the common one.
 /// T is the mean temperature over the rows, by the motion of particles relative to the common one. Column: the integral
-/// up to the longest lag; NaN before there are as many rows. Table: the autocorrelation and the running integral.
+/// up to the longest lag; NaN while there are fewer rows. Table: the autocorrelation and the running integral.
 class GreenKubo final : public Diagnosis {
  public:
   using Options = GreenKuboOptions;
-  /// Error if there is none in such a simulation: no shear in 1D, no charges, several ensembles that carry heat.
+  /// Error if a simulation has no such coefficient: no shear in 1D, no charges, several ensembles that carry heat.
   GreenKubo(std::vector<AnyEnsemble const*> const& available, Options const& options);
 
   std::vector<Column> columns() const override;
@@ -48,7 +48,7 @@ class GreenKubo final : public Diagnosis {
   std::vector<double> state() const override;
   void restore(std::span<double const> state) override;
 
-  /// <flux(0).flux(t)> at lags 0, 1, ... rows, and the coefficient up to there.
+  /// <flux(0).flux(t)> at lags 0, 1, ... rows, and the coefficient up to that lag.
   std::vector<double> autocorrelation() const;
   std::vector<double> coefficient() const;
 
@@ -62,7 +62,7 @@ class GreenKubo final : public Diagnosis {
   int dimension_;
   double rows_ = 0, first_time_ = 0, last_time_ = 0, interval_ = 0;
   double temperature_ = 0, volume_ = 0, constant_ = 1;  // means over rows; Boltzmann's constant
-  std::deque<std::vector<double>> fluxes_;              // of the last rows, the latest first
+  std::deque<std::vector<double>> fluxes_;              // of the last rows, latest first
   std::vector<double> sums_, numbers_;                  // for each lag
 };
 

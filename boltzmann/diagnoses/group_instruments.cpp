@@ -1,4 +1,4 @@
-// Of a group of particles: all of an ensemble, by number, or by velocity.
+// For a group of particles: all of an ensemble, by number, or by velocity.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/diagnoses/derived.hpp>
 #include <boltzmann/diagnoses/instruments.hpp>
@@ -11,7 +11,7 @@
 namespace boltzmann::instruments {
 namespace {
 
-/// A group in each of the chosen ensembles: all, by number, or those of similar velocity at the first look.
+/// A group in each of the chosen ensembles: all, by number, or those of similar velocity at the first sample.
 class GroupDiagnosis : public Diagnosis {
  public:
   explicit GroupDiagnosis(DiagnosisParameters const& parameters)
@@ -54,7 +54,7 @@ class GroupDiagnosis : public Diagnosis {
 
   bool by_number() const final { return similar_ || !particles_.empty(); }
 
-  /// Nothing before the first look; then, for each ensemble, the size of its group and the numbers of its particles.
+  /// Empty before the first sample; then, for each ensemble, the size of its group and the numbers of its particles.
   std::vector<double> state() const final {
     std::vector<double> state;
     for (auto const& group : groups_) {

@@ -1,4 +1,4 @@
-// Heat flux: one pass for the mean enthalpy, one for what the flow carries of the rest.
+// Heat flux: one pass for the mean enthalpy, one for the convection relative to it.
 #include <boltzmann/diagnoses/heat_flux.hpp>
 #include <boltzmann/diagnoses/unknown.hpp>
 

@@ -1,5 +1,4 @@
-// Heat through a layer between two walls of prescribed temperature: conducted, carried by the flow, and Nusselt's
-// number.
+// Heat through a layer between two walls of prescribed temperature: conduction, convection, and Nusselt's number.
 #pragma once
 
 #include <boltzmann/diagnoses/diagnosis.hpp>
@@ -10,25 +9,27 @@ namespace boltzmann {
 
 struct HeatFluxOptions {
   int axis = 1;             ///< across the layer
-  double conductivity = 0;  ///< of what is between the walls
-  double since = 0;         ///< means and spreads are taken from this time on
+  double conductivity = 0;  ///< of the matter between the walls
+  double since = 0;         ///< start of means and standard deviations
 };
 
-/// Temperature of the wall at the low end of an axis less that at its high end. Error if they have no different
-/// temperatures.
+/// Temperature of the wall at the low end of an axis minus that at its high end. Error if these are missing or equal.
 double temperature_difference(Box const& box, int axis);
 
 /// Means over the whole layer of length L between walls at temperatures T0 (low end) and T1 (high end):
 ///   conductive  conductivity (T0 - T1) / L: the volume average of -conductivity dT/dx, by Gauss' theorem
-///   convective  (1 / V) Sum m v (h - <h>), v the velocity along the axis, h = e + P / rho the enthalpy per mass and <h>
-///               its mean over the mass (what the whole layer's sloshing would carry averages out, and is not counted)
+///   convective  (1 / V) Sum m v (h - <h>), v the velocity along the axis, h = e + P / rho the enthalpy per mass and
+///   <h>
+///               its mean over the mass (this excludes transport by the sloshing of the whole layer, which averages
+///               out)
 ///   Nusselt     (conductive + convective) / conductive
-/// of all ensembles of smooth particles, and the mean and the standard deviation of Nusselt's number over the looks
+/// of all ensembles of smooth particles, and the mean and the standard deviation of Nusselt's number over the samples
 /// since a time (NaN before).
 class HeatFlux final : public Diagnosis {
  public:
   using Options = HeatFluxOptions;
-  /// Error if the conductivity is not above 0, or an ensemble is not of smooth particles in a space with that axis.
+  /// Error if the conductivity is not above 0, or an ensemble does not consist of smooth particles in a space with that
+  /// axis.
   HeatFlux(std::vector<AnyEnsemble const*> const& ensembles, HeatFluxOptions const& options);
 
   std::vector<Column> columns() const override;

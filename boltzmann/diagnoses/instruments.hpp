@@ -1,4 +1,4 @@
-// Instruments: what the catalogue's table makes of parameters. Private to this room.
+// Instruments: the makers in the catalogue's table. Private to this module.
 #pragma once
 
 #include <boltzmann/diagnoses/chosen.hpp>
@@ -8,16 +8,16 @@
 
 namespace boltzmann::instruments {
 
-/// Makes one of a kind. Error if the parameters are wrong for it.
+/// Makes an instrument. Error if the parameters do not fit it.
 using Maker = std::unique_ptr<Diagnosis>(DiagnosisParameters const& parameters);
 
-// Of the whole system, or of each ensemble that is named: system_instruments.cpp, vortex_instruments.cpp.
+// For the whole system, or each named ensemble: system_instruments.cpp, vortex_instruments.cpp.
 Maker make_energies, make_momentum, make_angular_momentum, make_temperature, make_pressure, make_viscosity, make_number,
     make_entropy;
 Maker make_vortex_invariants, make_vortex_energy;
-// Of groups of particles: group_instruments.cpp.
+// For groups of particles: group_instruments.cpp.
 Maker make_mean_velocity, make_velocity_diffusion, make_extremes;
-// Of what is on a mesh: mesh_instruments.cpp.
+// For fields on a mesh: mesh_instruments.cpp.
 Maker make_field_energy, make_field_mode, make_wave_spectrum;
 
 }  // namespace boltzmann::instruments

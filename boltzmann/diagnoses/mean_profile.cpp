@@ -1,4 +1,4 @@
-// Sums of bins that go on from look to look.
+// Sums of bins, accumulated from sample to sample.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/diagnoses/chosen.hpp>
 #include <boltzmann/diagnoses/mean_profile.hpp>

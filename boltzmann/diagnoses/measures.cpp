@@ -17,7 +17,7 @@ namespace {
 
 using TripleSum = std::array<ExactSum, 3>;
 
-/// Those over all particles.
+/// Completed over all ranks.
 template <class Sums>
 Sums& added_up(Ensembles of, Sums& sums) {
   if constexpr (std::is_same_v<Sums, ExactSum>)
@@ -29,7 +29,7 @@ Sums& added_up(Ensembles of, Sums& sums) {
 
 Triple value_of(TripleSum const& sum) { return {sum[0].value(), sum[1].value(), sum[2].value()}; }
 
-/// Calls f(mass, velocity, position, dimension) for every particle that moves and carries momentum.
+/// Calls f(mass, velocity, position, dimension) for every moving particle that carries momentum.
 template <class Function>
 void for_each_body(Ensembles of, Function f) {
   for (AnyEnsemble const* ensemble : of) {
@@ -44,8 +44,8 @@ void for_each_body(Ensembles of, Function f) {
   }
 }
 
-/// Exact sums over all particles that move and carry momentum: f(mass, velocity, dimension, terms) writes the terms of one, with
-/// velocities relative to the flow of a sheared box.
+/// Exact sums over all moving particles that carry momentum: f(mass, velocity, dimension, terms) writes the terms of
+/// one, with velocities relative to the flow of a sheared box.
 template <std::size_t K, class Function>
 std::array<ExactSum, K> sums_over_bodies(Ensembles of, Box const* box, int threads, Function const& f) {
   std::array<ExactSum, K> sums;

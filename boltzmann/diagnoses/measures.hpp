@@ -1,10 +1,10 @@
 // Measures: number, momentum, energy, temperature, pressure, drag and velocity diffusion of particles (section 5.2.3).
 //
-// Numbers are in the simulation's units, of the state as it stands. Every function is an exact sum over the
-// particles (ExactSum), rounded once, so that results do not depend on their order, or on the number of threads. What a
-// class does not have does not count: an ensemble without mass or velocity (Tracer particles, vortices) adds nothing to
-// mass, momentum, kinetic energy and temperature. Components beyond the dimension are 0. Particles at rest (frozen or
-// deactivated: Mobility) have no momentum, kinetic energy or temperature, whatever their velocity field holds.
+// Numbers are in the simulation's units, for the current state. Every function is an exact sum over the
+// particles (ExactSum), rounded once, so that results do not depend on their order, or on the number of threads.
+// Missing fields of a class contribute nothing: an ensemble without mass or velocity (Tracer particles, vortices) adds
+// nothing to mass, momentum, kinetic energy and temperature. Components beyond the dimension are 0. Particles at rest
+// (frozen or deactivated: Mobility) have no momentum, kinetic energy or temperature, whatever their velocity field is.
 #pragma once
 
 #include <boltzmann/particles/degrees_of_freedom.hpp>
@@ -24,7 +24,7 @@ namespace boltzmann {
 using Triple = std::array<double, 3>;
 using Tensor3 = std::array<std::array<double, 3>, 3>;
 
-/// What a measure is taken of: one ensemble, or several as one system. A view, for arguments.
+/// The argument of measures: one ensemble, or several as one system. A view, for arguments.
 class Ensembles {
  public:
   Ensembles() = default;
@@ -47,13 +47,13 @@ struct Velocities {
   std::size_t stride;
   double const* operator[](std::size_t i) const { return first + i * stride; }
 };
-/// Whether velocities_of() can give them.
+/// True if velocities_of() can give them.
 bool has_velocities(AnyEnsemble const& ensemble);
 /// The field "velocity", or the influence in a class without one (Tracer); a view. Error if the class has neither.
 Velocities velocities_of(AnyEnsemble const& ensemble);
 
-/// The mean of what(p) over the particles p of an ensemble for which where(p) holds, without `where` over all of them:
-/// a number or a Vector; NaN of none.
+/// The mean of what(p) over the particles p of an ensemble with where(p), or over all: a number or a Vector; NaN if
+/// there are none.
 ///   double const error = mean(gas, [&](auto const& p) { return magnitude(p.velocity - exact(p.position)); });
 template <class P, class What, class Where>
 auto mean(Ensemble<P> const& ensemble, What const& what, Where const& where) {
@@ -72,11 +72,11 @@ auto mean(Ensemble<P> const& ensemble, What const& what) {
 
 std::size_t number_of_particles(Ensembles of);
 double total_mass(Ensembles of);
-/// Sum m r / Sum m, of the positions as they stand (on periodic axes: in the box); NaN without mass.
+/// Sum m r / Sum m, of the current positions (on periodic axes: in the box); NaN without mass.
 Triple centre_of_mass(Ensembles of);
 /// Sum m v
 Triple momentum(Ensembles of, int threads = 1);
-/// Sum m v / Sum m of the particles that move; 0 of none.
+/// Sum m v / Sum m of the moving particles; 0 if there are none.
 Triple common_velocity(Ensembles of, int threads = 1);
 /// Sum m (r - about) x v: one component in 1D (always 0) and in 2D (out of the plane), three in 3D. Particles that
 /// cross a periodic boundary change it: it is conserved in open space only.
@@ -86,32 +86,32 @@ double kinetic_energy(Ensembles of, int threads = 1);
 
 struct Temperature {
   Triple component{};  ///< T_a = Sum m v_a^2 / (k f_a) for each axis: equal in equilibrium
-  double total = 0;    ///< Sum m v.v / (k f): that of all degrees of freedom
+  double total = 0;    ///< Sum m v.v / (k f): over all degrees of freedom
 };
 struct TemperatureOptions {
   bool subtract_drift = false;
-  Box const* box = nullptr;  ///< where it is sheared, velocities are those relative to its flow
+  Box const* box = nullptr;  ///< if it is sheared, velocities are relative to its flow
   int threads = 1;
-  Ensembles system = {};                      ///< all ensembles of the simulation, which share the kept momentum
+  Ensembles system = {};                      ///< all ensembles of the simulation, which share the conserved momentum
   std::array<bool, 3> momentum_is_kept = {};  ///< Simulation::momentum_is_kept(): of the system
 };
-/// Temperature of the degrees of freedom that particles/degrees_of_freedom.hpp counts. As the text of 1990 has it
-/// (section 5.2.3.1) the mean velocity is not subtracted; but a momentum of the system that is kept and zero takes its
-/// degrees of freedom. With subtract_drift the common (mass-weighted) velocity of `of` is taken off, and one degree of
+/// Temperature of the degrees of freedom of particles/degrees_of_freedom.hpp. As in the text of 1990 (section 5.2.3.1)
+/// the mean velocity is not subtracted; but a total momentum of the system that is conserved and zero removes its
+/// degrees of freedom. With subtract_drift the common (mass-weighted) velocity of `of` is subtracted, and one degree of
 /// freedom along each axis. NaN if no degree of freedom is left.
 Temperature temperature(Ensembles of, double boltzmann_constant, TemperatureOptions const& options = {});
 
-/// The momentum of a system that is kept, as far as it is zero: it then takes degrees of freedom. (One that is not zero
-/// is a part of the particles' motion, as they were loaded.) `along`: axes along which it is kept.
+/// The conserved momentum of a system along axes where it is zero: it then removes degrees of freedom. (A nonzero one
+/// is a part of the particles' motion, from their initial state.) `along`: axes along which it is conserved.
 KeptMomentum zero_momentum(Ensembles system, std::array<bool, 3> const& along, Box const* box = nullptr,
                            int threads = 1);
 
-/// Sum m v_a v_b, an energy: not per volume. In a box that is sheared, velocities are those relative to its flow.
+/// Sum m v_a v_b, an energy: not per volume. In a sheared box, velocities are relative to its flow.
 Tensor3 kinetic_stress(Ensembles of, Box const* box = nullptr, int threads = 1);
 /// (Sum m v v + virial) / V, V the volume of the box (area in 2D, length in 1D): the virial of all influences between
-/// particles, and in a sheared box of friction between pairs. NaN where it is not known. Meaningful where particles fill
-/// the box. In a sheared box velocities are those relative to its flow, so that the momentum along the flow that goes
-/// through unit area up the gradient is element [gradient][flow].
+/// particles, and in a sheared box of friction between pairs. NaN if it is unknown. Meaningful if particles fill the
+/// box. In a sheared box velocities are relative to its flow, so that the flux up the gradient of momentum along the
+/// flow, per unit area, is element [gradient][flow].
 Tensor3 pressure_tensor(Ensembles of, EnergyAndVirial const& measures, Box const& box, int threads = 1);
 /// (Sum m v.v + trace of the virial) / (D V)
 double pressure(Ensembles of, EnergyAndVirial const& measures, Box const& box, int threads = 1);
@@ -120,11 +120,11 @@ double pressure(Ensembles of, EnergyAndVirial const& measures, Box const& box, i
 
 /// 0, 1, 2, ...: all particles of an ensemble as a group.
 std::vector<std::uint32_t> all_particles(AnyEnsemble const& ensemble);
-/// "Similar" particles (section 5.2.3.3): those whose velocity now is within `tolerance` of the given one (the
+/// "Similar" particles (section 5.2.3.3): those whose current velocity is within `tolerance` of the given one (the
 /// magnitude of the difference). Error if the tolerance is negative.
 std::vector<std::uint32_t> similar_particles(AnyEnsemble const& ensemble, Triple const& velocity, double tolerance);
-/// <v> of a group: its change in time shows the drag on it. NaN for an empty group; Error for a particle that is not
-/// there.
+/// <v> of a group: its change in time shows the drag on it. NaN for an empty group; Error for a particle that does not
+/// exist.
 Triple mean_velocity(AnyEnsemble const& ensemble, std::span<std::uint32_t const> group);
 /// <|v - <v>|^2> of a group (section 5.2.3.4): its growth is the velocity diffusion. NaN and Error as above.
 double velocity_spread(AnyEnsemble const& ensemble, std::span<std::uint32_t const> group);

@@ -1,4 +1,4 @@
-// Counts on nodes and their transform, of which only the waves that are asked for are kept from axis to axis.
+// Counts on nodes and their transform, of which only the wanted waves are kept from axis to axis.
 #include <boltzmann/core/fourier.hpp>
 #include <boltzmann/core/threads.hpp>
 #include <boltzmann/diagnoses/mesh_amplitudes.hpp>
@@ -16,16 +16,16 @@ namespace {
 
 constexpr int spline_order = MeshAmplitudes::order;
 constexpr std::size_t fewest_nodes = 8;
-constexpr double rounding = 0x1.8p52;  // added to a number, it leaves the nearest integer in its last bits
+constexpr double rounding = 0x1.8p52;  // added to a number, it leaves the nearest integer in its low bits
 
-/// The slot of an axis: the last one is that whose nodes stand side by side.
+/// The slot of an axis: the last slot is that of contiguous nodes.
 int slot_of(int axis, int dimension) { return axis == dimension - 1 ? 2 : axis; }
 
 double sinc(double x) { return x == 0 ? 1 : std::sin(x) / x; }
 
-/// The nodes along an axis that a place is spread over.
+/// The nodes along an axis over which a position is spread.
 struct Spread {
-  std::size_t first = 0;  // may lie behind the others, which go on at 0
+  std::size_t first = 0;  // the others may wrap around to 0
   double weights[spline_order] = {1, 0, 0, 0, 0, 0};
 };
 
@@ -38,14 +38,14 @@ Spread spread(double part, std::size_t nodes, double shift) {
   return found;
 }
 
-/// The largest power of two by which weights can be multiplied so that no sum is too large, nor a weight for `rounding`.
+/// The largest power of two for scaling weights so that no sum overflows, nor a weight exceeds the range of `rounding`.
 double scale_for(std::size_t particles) {
   return std::ldexp(1.0, std::min(50, 62 - static_cast<int>(std::bit_width(particles))));
 }
 
 }  // namespace
 
-/// Lines along the last axis have room behind them for what goes on at their beginning.
+/// Lines along the last axis have padding for nodes that wrap around to their beginning.
 struct MeshAmplitudes::Counts {
   std::array<std::size_t, 3> nodes;
   double scale;
@@ -54,7 +54,7 @@ struct MeshAmplitudes::Counts {
 
   template <int D>
   void spread_all(std::vector<double const*> const& rows, Box const& box, double shift, int threads) {
-    // Each range has planes of its own, which all particles are asked for: integers have no order.
+    // Each range has planes of its own, and processes all particles: integer sums are independent of their order.
     std::size_t const grain =
         D == 1 ? 1 : (nodes[0] + static_cast<std::size_t>(threads) - 1) / static_cast<std::size_t>(threads);
     for_ranges(nodes[0], grain, threads_for(rows.size(), spline_order * spline_order, threads),
@@ -138,7 +138,7 @@ std::size_t MeshAmplitudes::place(std::array<int, 3> const& n) const {
 
 namespace {
 
-/// Of wave n the number in a transform of that length.
+/// The index of wave n in a transform of that length.
 std::size_t number_of(int n, std::size_t length) {
   return n < 0 ? length - static_cast<std::size_t>(-n) : static_cast<std::size_t>(n);
 }
@@ -173,7 +173,7 @@ std::vector<MeshAmplitudes::Complex> MeshAmplitudes::in_planes(Counts const& cou
   return all;
 }
 
-/// Adds half of what a mesh has found that stands `shift` cells further.
+/// Adds half of the result of a mesh that is shifted by `shift` cells.
 void MeshAmplitudes::transform(Counts const& counts, double shift, int threads) {
   std::size_t const planes = nodes_[0], lines = nodes_[1], line = nodes_[2];
   std::size_t const kept = static_cast<std::size_t>(most_[2]) + 1, rows = 2 * static_cast<std::size_t>(most_[1]) + 1;
@@ -181,7 +181,7 @@ void MeshAmplitudes::transform(Counts const& counts, double shift, int threads) 
   auto const waves = in_planes(counts, threads);
   LineTransform along_x;
   if (planes > 1) along_x = LineTransform(FourierKind::complex_forward, planes, kept);
-  std::array<std::vector<Complex>, 3> factor;  // over the spline's transform, and back by the shift
+  std::array<std::vector<Complex>, 3> factor;  // 1 over the spline's transform, times the phase of the shift
   for (std::size_t slot = 0; slot < 3; ++slot)
     for (int n = -most_[slot]; n <= most_[slot]; ++n) {
       double const turns = n / static_cast<double>(nodes_[slot]);
@@ -230,7 +230,7 @@ std::array<std::size_t, 3> MeshAmplitudes::nodes() const {
 }
 
 double MeshAmplitudes::bound(std::array<int, 3> const& mode) const {
-  constexpr int far = 8;  // images further away add up to less than 1e-8 of the nearest
+  constexpr int far = 8;  // images further away sum to less than 1e-8 of the nearest
   auto const n = in_slots(mode);
   std::array<std::array<double, 2 * far + 1>, 3> ratio{};
   for (std::size_t slot = 0; slot < 3; ++slot)

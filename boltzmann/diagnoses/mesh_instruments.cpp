@@ -1,4 +1,4 @@
-// Of what a mesh has on its nodes.
+// Diagnoses of fields on the nodes of a mesh.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/diagnoses/field_measures.hpp>
 #include <boltzmann/diagnoses/instruments.hpp>
@@ -23,7 +23,7 @@ class FieldEnergy final : public Diagnosis {
   }
 };
 
-/// "field.x" where nothing is said.
+/// "field.x" by default.
 std::string mesh_quantity_name(DiagnosisParameters const& parameters) {
   return parameters.quantity.empty() ? "field.x" : parameters.quantity;
 }

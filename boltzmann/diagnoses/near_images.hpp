@@ -1,4 +1,4 @@
-// Near images: who is within a distance of a place, through periodic ends.
+// Near images: particles within a distance of a point, through periodic ends.
 #pragma once
 
 #include <boltzmann/boundaries/box.hpp>
@@ -10,7 +10,7 @@
 namespace boltzmann {
 
 /// Calls near(j, image) for particles j of `cells` that may be within `reach` of an image of x, x itself or one beyond
-/// periodic ends. Distances are plain ones to that image: where reach is at most half of every periodic axis, each
+/// periodic ends. Distances are plain ones to that image: if reach is at most half of every periodic axis, each
 /// particle is within it of one image at most.
 template <int D, class Near>
 void each_near(Cells const& cells, double const* x, Box const& box, double reach, Near const& near) {

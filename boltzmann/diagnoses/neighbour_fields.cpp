@@ -1,4 +1,4 @@
-// Neighbours by cells: images of a particle look around in the box.
+// Neighbours by cells: a search in the box around each image of a particle.
 #include <boltzmann/boundaries/images.hpp>
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/diagnoses/bond_harmonics.hpp>
@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t not_among = static_cast<std::size_t>(-1);
 
-/// Where a particle is inside the box, of which Images begin. Through an end of a sheared box's gradient it is its image.
+/// Wraps a position into the box, as Images require. Through an end of a sheared box's gradient it becomes its image.
 template <int D>
 std::array<double, D> inside(Box const& box, double const* x) {
   std::array<double, D> place;
@@ -31,7 +31,7 @@ std::array<double, D> inside(Box const& box, double const* x) {
   return place;
 }
 
-/// Particles that may be neighbours, and cells of them.
+/// Particles that may be neighbours, sorted into cells.
 template <int D>
 class Surroundings {
  public:
@@ -49,14 +49,14 @@ class Surroundings {
     cells_ = Cells(D, places_.data(), D, places_.size() / D, range, threads);
   }
 
-  /// Calls near(way, square of its length) for each neighbour of particle i, and the way there.
+  /// Calls near(way, square of its length) for each neighbour of particle i, with the vector to it.
   template <class Near>
   void each(AnyEnsemble const& ensemble, std::size_t i, Near const& near) const {
     if (places_.empty()) return;
     std::size_t own = not_among;
     for (auto const& [one, first] : first_)
       if (one == &ensemble) own = first + i;
-    std::array<double, 3> place{};  // of all axes: gcc can't see that none beyond D is read
+    std::array<double, 3> place{};  // of all axes: gcc can't prove that none beyond D is read
     auto const here = inside<D>(box_, ensemble.row(i));
     std::copy(here.begin(), here.end(), place.begin());
     images_.each(place.data(), range_, [&](Turns const& turns, std::array<double, 3> const& image) {
@@ -70,7 +70,7 @@ class Surroundings {
           for (double const w : way) r2 += w * w;
           if (!(r2 < range_ * range_) || (j == own && (itself || r2 == 0))) continue;
           for (int a = 0; a < D; ++a)
-            if (turns[static_cast<std::size_t>(a)] != 0 && !box_.periodic(a)) way[a] = -way[a];  // seen in a mirror
+            if (turns[static_cast<std::size_t>(a)] != 0 && !box_.periodic(a)) way[a] = -way[a];  // reflected
           near(way, r2);
         }
       });
@@ -82,7 +82,7 @@ class Surroundings {
   Images images_;
   double range_;
   std::vector<double> places_;
-  std::vector<std::pair<AnyEnsemble const*, std::size_t>> first_;  // places of each ensemble begin with
+  std::vector<std::pair<AnyEnsemble const*, std::size_t>> first_;  // where the positions of each ensemble begin
   Cells cells_;
 };
 

@@ -1,4 +1,5 @@
-// Neighbour fields: what is around each particle, as fields of its class that files, pictures, diagnoses and formulas know.
+// Neighbour fields: properties of each particle's neighbourhood, as fields of its class for files, pictures, diagnoses
+// and formulas.
 //
 //   NeighbourFields around(box);
 //   around.find(atoms, {.field = "coordination", .range = 1.3});
@@ -14,23 +15,23 @@
 namespace boltzmann {
 
 struct NeighbourField {
-  std::string field;      ///< of one number, which nothing else changes
-  double range = 0;       ///< neighbours are nearer than that; positive
-  std::size_t order = 0;  ///< 0: how many they are; l: how far their directions are those of a crystal (BondOrder)
-  /// Neighbours are particles of these; none: of all ensembles of the scheme.
+  std::string field;      ///< with one component, which nothing else changes
+  double range = 0;       ///< limit of the distance of neighbours; positive
+  std::size_t order = 0;  ///< 0: their number; l: the bond order of their directions (BondOrder)
+  /// Neighbours are particles of these; empty: of all ensembles of the scheme.
   std::vector<AnyEnsemble*> among = {};
 };
 
-/// A scheme beside others that moves nobody: whenever somebody looks, and only then, it finds fields of particles by their
-/// neighbours. So influences may not read these fields. Images are neighbours as other particles are: those beyond
-/// periodic ends, also of a sheared box, as many as there are within the range, and those beyond the walls of mirror axes,
-/// a particle's own among them. Of a particle without neighbours the bond order is NaN.
+/// A scheme without influences: it computes fields of particles from their neighbours, only when an observer needs
+/// them. So influences may not read these fields. Images count as neighbours: those beyond periodic ends, also of a
+/// sheared box, as many as are within the range, and those beyond the walls of mirror axes, including a particle's own.
+/// The bond order of a particle without neighbours is NaN.
 class NeighbourFields final : public Scheme {
  public:
   explicit NeighbourFields(Box box) : Scheme(std::move(box)) {}
 
-  /// Error if the ensemble has no such field or it is not one number, the range is not positive, or a bond order is asked
-  /// for on a line or above 16.
+  /// Error if the ensemble has no such field or it has several components, the range is not positive, or a bond order
+  /// is wanted on a line or above 16.
   void find(AnyEnsemble& ensemble, NeighbourField field);
 
   void complete(double time) override;

@@ -13,7 +13,7 @@
 namespace boltzmann {
 namespace {
 
-constexpr double no_freedom = 1e-6;  // degrees of freedom, which come in whole numbers of molecules
+constexpr double no_freedom = 1e-6;  // degrees of freedom, which are multiples of a molecule's
 
 int offset_of_field(AnyEnsemble const& ensemble, char const* name) {
   Field const* field = ensemble.find_field(name);
@@ -206,7 +206,7 @@ Extent extent(MassiveParticles const& bodies, Box const& box, int axis) {
 
 namespace {
 
-/// Of what is between two places and inside the box.
+/// The volume between two positions and inside the box.
 double volume_between(Box const& box, int axis, double low, double high) {
   if (box.boundary(axis) != Boundary::open) {
     low = std::max(low, box.low(axis));
@@ -246,7 +246,8 @@ void ProfileSums::add(MassiveParticles const& bodies, Box const& box) {
   bodies.for_each([&](double const* position, MomentSums::Body const& body) {
     double const x = position[axis_];
     if (!(x >= low_ && x <= high_)) return;
-    auto const bin = static_cast<std::size_t>((x - low_) / width_);  // a particle at the high end is in the last one
+    auto const bin = static_cast<std::size_t>((x - low_) / width_);  // a particle at the high end belongs to the last
+                                                                     // one
     of_bin[std::min(bin, sums_.size() - 1)].push_back(body);
   });
   for (std::size_t b = 0; b < sums_.size(); ++b) {

@@ -1,4 +1,4 @@
-// Profiles: what matter is like (density, velocity, temperatures, pressure, energies) in a part of space, and along an
+// Profiles: the state of matter (density, velocity, temperatures, pressure, energies) in a part of space, and along an
 // axis.
 #pragma once
 
@@ -15,36 +15,36 @@
 
 namespace boltzmann {
 
-/// Matter as one piece. "Volume" is an area in 2D and a length in 1D. Numbers that can't be had are NaN.
+/// The state of some matter. "Volume" is an area in 2D and a length in 1D. Unknown numbers are NaN.
 struct MatterState {
   std::size_t number = 0;
   double volume = 0, mass = 0;
   double density = 0;                   ///< mass / volume
-  Triple velocity{};                    ///< of the centre of mass of the particles that move; 0 if none moves
+  Triple velocity{};                    ///< of the centre of mass of the moving particles; 0 if there are none
   Triple kinetic_temperature{};         ///< T_a = sum m (v_a - <v_a>)^2 / (k f_a) along each axis, f_a: see MomentSums
   double mean_kinetic_temperature = 0;  ///< sum m |v - <v>|^2 / (k f)
-  double internal_temperature = 0;      ///< harmonic mean of the field "temperature", of classes that have it
+  double internal_temperature = 0;      ///< harmonic mean of the field "temperature", over classes that have it
   Tensor3 pressure{};                   ///< (sum m v' v' + virial) / volume, v' = v - <v>: the negative of the stress
-  double internal_energy = 0;           ///< per mass: of what is inside the particles
+  double internal_energy = 0;           ///< per mass: inside the particles
   double potential_energy = 0;          ///< per mass: of the influences between particles
-  double specific_energy = 0;           ///< per mass: both, and the kinetic energy of v'
+  double specific_energy = 0;           ///< per mass: both, plus the kinetic energy of v'
 };
 
-/// Sums over particles that become a MatterState, for any mean velocity. What is added at once is added exactly, in
-/// whatever order it stands (ExactSum); what was added before it joins by its number, mean and squares about the mean
-/// (T. F. Chan, G. H. Golub and R. J. LeVeque, Am. Stat. 37, 242 (1983)). Particles at rest count for number, mass,
-/// energies and virial, not for velocity and temperature.
+/// Sums over particles that give a MatterState, for any mean velocity. Terms of one call are added exactly, in any
+/// order (ExactSum); earlier ones are combined by number, mean and squares about the mean (T. F. Chan, G. H. Golub and
+/// R. J. LeVeque, Am. Stat. 37, 242 (1983)). Particles at rest count for number, mass, energies and virial, not for
+/// velocity and temperature.
 ///
-/// Degrees of freedom along an axis are those of the particles (particles/degrees_of_freedom.hpp), less what the mean
-/// velocity takes: 1, or 1 - M_b / M where a momentum of the system of mass M is kept and zero and M_b is the mass here,
-/// for then the mean velocity fluctuates so much less.
+/// Degrees of freedom along an axis are those of the particles (particles/degrees_of_freedom.hpp), minus 1 for the mean
+/// velocity. If a momentum of the system of mass M is conserved and zero, the mean velocity fluctuates less, and it is
+/// minus 1 - M_b / M, where M_b is the mass here.
 class MomentSums {
  public:
   struct Body {
     double mass;
-    double const* velocity;             ///< dimension components
+    double const* velocity;             ///< dimension() components
     double internal_energy, potential;  ///< NaN: unknown
-    double temperature;                 ///< NaN: its class has none
+    double temperature;                 ///< NaN if its class has none
     double const* virial;               ///< nine numbers (EnergyAndVirial::virial_per_particle); null: unknown
     double freedom;                     ///< degrees of freedom in all directions (freedom_of()); 0: it is at rest
   };
@@ -53,13 +53,13 @@ class MomentSums {
   void add_volume(double volume) { volume_ += volume; }
 
   std::size_t number() const { return static_cast<std::size_t>(number_); }
-  /// Of all that was added. boltzmann_constant: in the simulation's units, units(units::boltzmann_constant).
+  /// The state of all added particles. boltzmann_constant: in the simulation's units, units(units::boltzmann_constant).
   MatterState matter(int dimension, double boltzmann_constant) const;
 
   /// The sums themselves, for checkpoints.
   static constexpr std::size_t state_size = 34;
   std::vector<double> state() const;
-  /// Takes state_size numbers.
+  /// Needs state_size numbers.
   void restore(std::span<double const> state);
 
  private:
@@ -73,15 +73,15 @@ class MomentSums {
   double internal_ = 0, potential_ = 0, with_temperature_ = 0, inverse_temperature_ = 0;
 };
 
-/// The particles of several ensembles as MomentSums wants them. Ensembles without mass or velocity are passed over. It
-/// looks at rows and measures, which must outlive it.
+/// The particles of several ensembles in the form that MomentSums needs. Ensembles without mass or velocity are
+/// skipped. It refers to rows and measures, which must outlive it.
 class MassiveParticles {
  public:
-  /// `measures` may be null: then energies and pressures are unknown. `chosen` names the ensembles that count; empty:
+  /// `measures` may be null: then energies and pressures are unknown. `chosen` names the included ensembles; empty:
   /// all.
   MassiveParticles(std::span<AnyEnsemble const* const> ensembles, EnergyAndVirial const* measures,
                    std::vector<std::string> const& chosen = {});
-  /// The same of all ensembles of a system: degrees of freedom are less by the momentum that it keeps.
+  /// The same for all ensembles of a system: its conserved momentum reduces the degrees of freedom.
   MassiveParticles(Sample const& sample, EnergyAndVirial const* measures, std::vector<std::string> const& chosen = {});
 
   KeptMomentum const& kept() const { return kept_; }
@@ -92,7 +92,7 @@ class MassiveParticles {
     double const* virial;
   };
   std::vector<Source> const& sources() const { return sources_; }
-  /// Particle i of a source; offsets count doubles from the beginning of its row.
+  /// Particle i of a source; offsets count doubles from the start of its row.
   static MomentSums::Body body(Source const& source, std::size_t i);
   /// The particles for which holds(position) is true.
   template <class Where>
@@ -118,14 +118,14 @@ class MassiveParticles {
 /// The product of the box's lengths along all other axes: 1 in 1D.
 double cross_section(Box const& box, int axis);
 
-/// The part of an axis that particles can be in: the box (as its walls stand now), and on open axes also where some
-/// particle is.
+/// The part of an axis that particles can be in: the box (at the current positions of walls), and on open axes also the
+/// extent of the particles.
 struct Extent {
   double low, high;
 };
 Extent extent(MassiveParticles const& bodies, Box const& box, int axis);
 
-/// What is between two places along an axis.
+/// The matter between two positions along an axis.
 MatterState matter_between(MassiveParticles const& bodies, Box const& box, int axis, double low, double high,
                            double boltzmann_constant);
 
@@ -133,26 +133,26 @@ MatterState matter_between(MassiveParticles const& bodies, Box const& box, int a
 struct Profile {
   int dimension, axis;
   std::vector<double> position;     ///< of the middle of each bin
-  std::vector<MatterState> matter;  ///< in each bin; of an empty one number, mass and density are 0, the rest NaN
+  std::vector<MatterState> matter;  ///< in each bin; in an empty one number, mass and density are 0, the rest NaN
 
   /// One quantity in each bin, by a name of profile_quantities(); Error for others.
   std::vector<double> values(std::string_view quantity) const;
 };
 
-/// The sums of a profile, over as many states as one likes.
+/// The sums of a profile, over any number of states.
 class ProfileSums {
  public:
   /// `count` bins from `low` to `high`. Error if there is no such axis, no bin, or low is not below high.
   ProfileSums(int dimension, int axis, double low, double high, std::size_t count);
 
-  /// The particles of a state. Of a bin that reaches beyond the box (where the axis is not open) only what is inside
-  /// counts as its volume.
+  /// Adds the particles of a state. The volume of a bin that extends beyond the box (unless the axis is open) is the
+  /// part inside.
   void add(MassiveParticles const& bodies, Box const& box);
-  /// The mean over all states; numbers of particles are those of all.
+  /// The mean over all states; numbers of particles are totals.
   Profile profile(double boltzmann_constant) const;
 
   std::vector<double> state() const;
-  /// Error if there are other bins.
+  /// Error if the bins differ.
   void restore(std::span<double const> state);
 
  private:
@@ -163,12 +163,12 @@ class ProfileSums {
   std::vector<MomentSums> sums_;
 };
 
-/// `count` bins from `low` to `high`. Of a bin that reaches beyond the box (where the axis is not open) only what is
-/// inside counts as its volume. Error if there is no such axis, no bin, or low is not below high.
+/// `count` bins from `low` to `high`. The volume of a bin that extends beyond the box (unless the axis is open) is the
+/// part inside. Error if there is no such axis, no bin, or low is not below high.
 Profile profile(MassiveParticles const& bodies, Box const& box, int axis, double low, double high, std::size_t count,
                 double boltzmann_constant);
 
-/// What a profile has: "number", "density", "velocity.x", "kinetic-temperature", "kinetic-temperature.x",
+/// The quantities of a profile: "number", "density", "velocity.x", "kinetic-temperature", "kinetic-temperature.x",
 /// "internal-temperature", "pressure.xx", "pressure.xy", ..., "internal-energy", "potential-energy", "specific-energy".
 struct ProfileQuantity {
   std::string name;
@@ -176,7 +176,7 @@ struct ProfileQuantity {
   Dimension dimension;
 };
 std::vector<ProfileQuantity> profile_quantities(int dimension);
-/// Error with the names there are, and the nearest.
+/// Error with all names, and the nearest.
 ProfileQuantity profile_quantity(int dimension, std::string_view name);
 
 }  // namespace boltzmann

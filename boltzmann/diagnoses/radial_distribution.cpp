@@ -1,4 +1,4 @@
-// Pairs in bins of their distance: all of them, or those that cells find where the distance is short.
+// Pairs in bins of their distance: all pairs, or with cells if the distance is short.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/diagnoses/chosen.hpp>
 #include <boltzmann/diagnoses/near_images.hpp>
@@ -18,7 +18,7 @@ namespace {
 
 using Counts = std::vector<std::uint64_t>;
 
-/// Half of the shortest side, or what the options say.
+/// Half of the shortest side, or the value of the options.
 double reach_in(Box const& box, RadialDistributionOptions const& options) {
   if (!std::isnan(options.to)) return options.to;
   double shortest = box.length(0);
@@ -26,9 +26,9 @@ double reach_in(Box const& box, RadialDistributionOptions const& options) {
   return 0.5 * shortest;
 }
 
-/// The probability that two particles anywhere in the box are within r of each other: the part of the box within r of
-/// one, averaged over where it is. Of u between the particles a wall to wall axis leaves 1 - |u_a| / L_a; <|n_a|>,
-/// <|n_a n_b|> and <|n_x n_y n_z|> are means over directions.
+/// The probability that two uniformly distributed particles in the box are within r of each other: the fraction of the
+/// box within r of a particle, averaged over its position. For the separation u an axis between walls contributes 1 -
+/// |u_a| / L_a; <|n_a|>, <|n_a n_b|> and <|n_x n_y n_z|> are means over directions.
 double ideal_within(Box const& box, double r) {
   using std::numbers::pi;
   int const D = box.dimension();
@@ -45,13 +45,13 @@ double ideal_within(Box const& box, double r) {
   return surface * within / box.volume();
 }
 
-/// In the box along periodic axes.
+/// Wrapped into the box along periodic axes.
 void add_positions(AnyEnsemble const& ensemble, std::size_t i, Box const& box, std::vector<double>& all) {
   for (int a = 0; a < box.dimension(); ++a)
     all.push_back(box.periodic(a) ? box.wrapped(ensemble.row(i)[a], a) : ensemble.row(i)[a]);
 }
 
-/// Of a group, or all, side by side.
+/// The positions of a group, or of all, contiguous.
 std::vector<double> positions_of(AnyEnsemble const& ensemble, std::span<std::uint32_t const> which, Box const& box,
                                  std::vector<double> all = {}) {
   for (auto const i : members_of(ensemble, which)) add_positions(ensemble, i, box, all);
@@ -78,7 +78,7 @@ class PairCounter {
     }
     count(r2, counts);
   }
-  /// As they are.
+  /// By the plain distance.
   void add_plain(double const* p, double const* q, std::uint64_t* counts) const {
     double r2 = 0;
     for (int a = 0; a < D; ++a) r2 += (q[a] - p[a]) * (q[a] - p[a]);
@@ -97,7 +97,7 @@ class PairCounter {
   double period_[D], half_[D];
 };
 
-/// What is to be counted: all pairs of `first`, or those between `first` and `second`.
+/// The pairs to count: all pairs of `first`, or those between `first` and `second`.
 struct PairSets {
   std::vector<double> const &first, &second;
   bool same;
@@ -107,14 +107,14 @@ struct PairSets {
   int threads;
 };
 
-/// Whole numbers, so that their sum has no order: the same for any threads.
+/// Integers, whose sum does not depend on the order: the same for any threads.
 template <int D>
 Counts counts_of(PairSets const& sets) {
   std::size_t const size = sets.first.size() / D, others = sets.second.size() / D;
   std::size_t const grain = size / 64 + 1, ranges = (size + grain - 1) / grain;
   std::vector<Counts> parts(std::max<std::size_t>(ranges, 1), Counts(sets.bins));
   PairCounter<D> const counter(sets.box, sets.reach, sets.bins);
-  // Cells pay where few of the others are near: an image of a particle may be near, too, so that at half a side all are.
+  // Cells pay if few of the others are near. Images of a particle may be near, too, so that at half a side all are.
   double sphere = 1, space = 1;
   for (int a = 0; a < D; ++a) sphere *= 3 * sets.reach, space *= sets.box.length(a);
   bool const by_cells = others > 200 && sphere < space / 4;
@@ -238,7 +238,7 @@ void RadialDistribution::measure(Sample const& sample, std::vector<double>& valu
     values.insert(values.end(), {unknown, unknown});
     return;
   }
-  // The parabola through the three bins around it.
+  // The parabola through the bin and its two neighbours.
   auto const at = static_cast<std::size_t>(highest - all.begin());
   double const width = reach_ / static_cast<double>(all.size());
   double height = *highest, place = static_cast<double>(at) + 0.5;

@@ -1,4 +1,4 @@
-// Shocks: the front from a fine profile, its velocity from a straight line, the states from windows beside it.
+// Shocks: the front from a fine profile, its velocity from a linear fit, the states from windows beside it.
 #include <boltzmann/diagnoses/shock.hpp>
 
 #include <boltzmann/core/error.hpp>
@@ -14,8 +14,8 @@
 namespace boltzmann {
 namespace {
 
-constexpr std::size_t fewest_bins = 5;  // of which the value behind a front is the mean
-constexpr double certain = 5;           // standard errors that a velocity must have to be no noise
+constexpr std::size_t fewest_bins = 5;  // the value behind a front is the mean of these
+constexpr double certain = 5;           // standard errors above which a velocity is significant
 
 }  // namespace
 
@@ -54,14 +54,14 @@ JumpResiduals jump_residuals(ShockState const& ahead, ShockState const& behind, 
 
 namespace {
 
-/// Planes of a crystal make a density uneven from bin to bin: the mean of each bin and those beside it.
+/// Planes of a crystal make the density uneven from bin to bin: averages each bin with its neighbours.
 std::vector<double> evened(std::vector<double> const& values) {
   std::vector<double> all(values);
   for (std::size_t b = 1; b + 1 < values.size(); ++b) all[b] = (values[b - 1] + values[b] + values[b + 1]) / 3;
   return all;
 }
 
-/// The value behind a front where nothing else tells it: the mean of five bins that is furthest from the value ahead.
+/// The default for the value behind a front: the mean of five bins that is furthest from the value ahead.
 double strongest(std::vector<double> const& values, double ahead) {
   std::vector<double> known;
   for (double const v : values)
@@ -173,7 +173,7 @@ void Shock::begin(Box const& box, MassiveParticles const& bodies, double boltzma
   } else {
     double const from_low = wall_velocity(box, axis, Box::End::low) - first_velocity_,
                  from_high = first_velocity_ - wall_velocity(box, axis, Box::End::high);
-    // Of particles at rest, too, the mean velocity is not quite zero.
+    // Even for particles at rest the mean velocity is not exactly zero.
     double const noise = certain * std::sqrt(boltzmann_constant * first.kinetic_temperature[axis] / first.mass);
     bool const low = from_low > noise, high = from_high > noise;  // false without a wall
     if (!low && !high)
@@ -205,7 +205,7 @@ void Shock::look(Sample const& sample, MassiveParticles const& bodies, double& f
   double const low = ends.low, high = ends.high;
   Profile const fine = profile(bodies, box, axis, low, high, count, sample.boltzmann_constant);
 
-  // Lengths along the way of the front: its direction, and the two ends of the matter.
+  // Lengths along the direction of the front: its sign, and the two ends of the matter.
   bool const upwards = end_ == Box::End::low;
   double const direction = upwards ? 1 : -1;
   auto const [first, last] = [&] {

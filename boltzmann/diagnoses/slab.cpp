@@ -1,4 +1,4 @@
-// Slabs: chosen by place once, then followed by number.
+// Slabs: members are selected by position once, then followed by number.
 #include <boltzmann/diagnoses/slab.hpp>
 
 #include <boltzmann/core/error.hpp>
@@ -60,7 +60,7 @@ SlabMembers slab_members(std::span<AnyEnsemble const* const> ensembles, Box cons
 
 Layer layer_of(std::span<double const> position, std::span<double const> mass, Box const& box, int axis) {
   if (position.empty()) return {};
-  // On a periodic axis: the image of each particle that is next to their mean on the circle.
+  // On a periodic axis: the image of each particle that is nearest to their mean on the circle.
   double reference = 0, turns = 0;
   if (box.periodic(axis)) {
     turns = box.length(axis);
@@ -128,7 +128,7 @@ void Slab::measure(Sample const& sample, std::vector<double>& values) {
   if (members_.empty()) members_ = slab_members(sample.ensembles, sample.box, options_);
   if (sample.ensembles.size() != ensembles_)
     throw Error("a slab diagnosis was made for other ensembles than the simulation has");
-  // Each by its number in the simulation; what carries no momentum has no members.
+  // By index in the simulation; ensembles without momentum have no members.
   MassiveParticles const bodies(sample, nullptr);
   std::vector<MomentSums::Body> found;
   std::vector<double> position, mass;

@@ -23,7 +23,7 @@ constexpr std::size_t parts(int dimension, Derivatives derivatives) {
   return 1 + (derivatives == Derivatives::none ? 0 : d) + (derivatives == Derivatives::second ? d * (d + 1) / 2 : 0);
 }
 
-/// The range of one particle; 0 stands for its own.
+/// The range of one particle; 0: its own.
 struct Ranges {
   double common;
   int offset = -1;
@@ -38,7 +38,8 @@ struct Ranges {
   double of(double const* row) const { return offset < 0 ? common : row[offset]; }
 };
 
-/// About how many images of a particle reach into the box, itself among them. Error if its range is none there.
+/// Approximate number of images of a particle within reach of the box, including itself. Error if its range is not
+/// valid there.
 double expected_images(AnyEnsemble const& ensemble, std::size_t i, double range, Box const& box) {
   if (!(range > 0) || std::isinf(range))
     throw Error(
@@ -56,8 +57,8 @@ double expected_images(AnyEnsemble const& ensemble, std::size_t i, double range,
   return images;
 }
 
-/// Eq 9 and the rule for quotients: with F = rho f, grad f = (grad F - f grad rho) / rho, and so on. `sums` has the
-/// parts of rho, and those of F (again of rho for the density itself); they become those of point p of the field.
+/// Eq 9 and the quotient rule: with F = rho f, grad f = (grad F - f grad rho) / rho, and so on. `sums` has the parts of
+/// rho, F those of rho f (again of rho for the density itself). Stores the results for point p of the field.
 void take_quotient(double const* sums, double const* F, bool quotient, std::size_t p, std::size_t D,
                    Derivatives derivatives, FieldValues& field) {
   double const rho = sums[0], scale = !quotient ? 1 : rho > 0 ? 1 / rho : unknown;
@@ -136,7 +137,7 @@ void SmoothField::collect_sources(double common_range) {
       std::array<double, 3> home{};
       for (int a = 0; a < D; ++a) home[a] = box_.periodic(a) ? box_.wrapped(row[a], a) : row[a];
       double const range = ranges.of(row);
-      // The images whose weight reaches into the box.
+      // The images whose weight extends into the box.
       seen.each(home.data(), range, [&](Turns const& turns, std::array<double, 3> const& at) {
         sources_.push_back({at, mass ? row[mass->offset] : 1.0, range, 1 / range});
         auto& walls = origins_.emplace_back(Origin{particle, {}}).walls;
@@ -181,7 +182,7 @@ void SmoothField::sum(double const* point, double const* const* columns, std::si
       if (derivatives != Derivatives::none)
         for (int a = 0; a < D; ++a) part[1 + a] = source.mass * weight.slope * way[a];
       if (derivatives == Derivatives::second) {
-        // w'' along the way to the particle, w'/r across it.
+        // w'' along the vector to the particle, w'/r across it.
         double const q = std::sqrt(r2) * source.inverse_range;
         double norm = Shape::template norm<D> * source.inverse_range * source.inverse_range;
         for (int a = 0; a < D; ++a) norm *= source.inverse_range;
@@ -242,7 +243,7 @@ std::vector<FieldValues> SmoothField::values(std::span<double const> points, std
         place[a] = box_.periodic(axis) && std::isfinite(x) ? box_.wrapped(x, axis) : x;
         inside = inside && std::isfinite(x);
         if (box_.boundary(axis) != Boundary::mirror) continue;
-        double const slack = 1e-12 * box_.length(axis);  // the last node of a grid is on the wall but for rounding
+        double const slack = 1e-12 * box_.length(axis);  // the last node of a grid is on the wall up to rounding
         if (box_.walled(axis, Box::End::low)) inside = inside && x >= box_.low(axis) - slack;
         if (box_.walled(axis, Box::End::high)) inside = inside && x <= box_.high(axis) + slack;
       }
@@ -392,7 +393,7 @@ class LatticePoint final : public AnyEnsemble {
   double row_[4] = {0, 0, 0, 0};
 };
 
-/// Goes uphill (sign 1) or downhill from a point, along the axes and diagonals, in ever smaller steps.
+/// Climbs (sign 1) or descends from a point, along the axes and diagonals, in decreasing steps.
 double climbed(SmoothField const& field, std::vector<double> point, double step, double sign) {
   auto const D = point.size();
   double best = sign * field.density(point).value[0];
@@ -426,7 +427,7 @@ DensityExtremes lattice_density_extremes(int dimension, WeightShape shape, doubl
   LatticePoint const lattice(dimension);
   Box const cell(dimension, {0, 0, 0}, {1, 1, 1}, {Boundary::periodic, Boundary::periodic, Boundary::periodic});
   SmoothField const field(lattice, cell, {shape, range});
-  // An eighth of a cell, by symmetry; from the best places of a grid on.
+  // An eighth of a cell, by symmetry; refined from the best points of a grid.
   std::size_t const along = dimension == 1 ? 65 : dimension == 2 ? 33 : 9;
   double const step = 0.5 / static_cast<double>(along - 1);
   MeshGrid grid;

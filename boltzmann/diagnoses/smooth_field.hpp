@@ -1,5 +1,5 @@
-// Smooth fields: what particles carry as twice differentiable functions of space (Eq 4, 5 and 9 of Hoover and Hoover's
-// SPAM). Any class of particles will do, atoms too.
+// Smooth fields: numbers of particles as twice differentiable functions of space (Eq 4, 5 and 9 of Hoover and Hoover's
+// SPAM). For any class of particles, including atoms.
 #pragma once
 
 #include <boltzmann/boundaries/images.hpp>
@@ -21,30 +21,30 @@
 
 namespace boltzmann {
 
-/// How particles are spread over space.
+/// The smoothing of particles.
 struct Smoothing {
   WeightShape shape = WeightShape::lucy;
   double range = 0;  ///< of every particle; 0: each particle's own, the field "range" of its class
 };
 
 /// A range for particles that have none: 3 spacings in 1D, 2.5 in 2D, 2 in 3D (6, 20 and 34 particles in it), where the
-/// spacing is that of as many particles spread evenly over the box. Error if there are no particles.
+/// spacing is that of the same number of particles spread evenly over the box. Error if there are no particles.
 double fitting_range(Ensembles of, Box const& box);
 
-/// Which derivatives of a field are wanted besides its value.
+/// The derivatives of a field to compute besides its value.
 enum class Derivatives { none, first, second };
 
-/// A field at points: one value for each, and what else was asked for.
+/// A field at points: one value for each, and the requested derivatives.
 struct FieldValues {
   std::vector<double> value;
   std::vector<double> gradient;  ///< D numbers for each point
   std::vector<double> hessian;   ///< D x D for each point, row by row; symmetric
 };
 
-/// One number for each particle, from which a field is made.
+/// One number for each particle, the input of a field.
 struct SmoothColumn {
   std::vector<double> values;  ///< ensemble after ensemble
-  /// The number of a particle's image beyond these walls, of the particle's own number. None: the same.
+  /// The number of a particle's image beyond these walls, as a function of the particle's own number. Null: the same.
   std::function<double(double own, std::size_t particle, Turns const& walls)> image = {};
 };
 
@@ -53,15 +53,16 @@ struct SmoothColumn {
 ///   density  rho(r) = Sum m_j w(|r - r_j|)                    (Eq 4)
 ///   value    f(r)   = Sum m_j f_j w(|r - r_j|) / rho(r)       (Eq 5)
 /// and their exact first and second derivatives. Where no particle is near, the density is 0 and every other field NaN.
-/// Periodic axes see all images. Walls that mirror see those beyond them, with the velocity and the temperature that
-/// the wall gives them (Wall); points beyond walls see nothing. Particles that are not at a finite place do not count.
+/// All images along periodic axes are included. So are those beyond mirror walls, with the velocity and the temperature
+/// that the wall gives them (Wall); at points beyond walls there is nothing. Particles whose position is not finite are
+/// ignored.
 ///
 /// Points are D coordinates each, one point after the other. Fields are sums over the neighbours of a point in a fixed
 /// order: the same bits for any number of threads.
 class SmoothField {
  public:
-  /// The particles as they stand now. Error if a range is not positive, a class without range is to give its own, a
-  /// range is longer than an axis with walls, or the ranges reach so far that there are more than 10^9 images.
+  /// The current particles. Error if a range is not positive, a class without range should provide its own, a range is
+  /// longer than an axis with walls, or the ranges are so large that there are more than 10^9 images.
   SmoothField(Ensembles of, Box const& box, Smoothing const& smoothing = {}, int threads = default_threads());
 
   int dimension() const { return box_.dimension(); }
@@ -74,27 +75,27 @@ class SmoothField {
   /// Error if there is not one number for each particle.
   FieldValues value(std::span<double const> points, SmoothColumn const& column,
                     Derivatives derivatives = Derivatives::none) const;
-  /// Of a quantity by name, "density" (Eq 4) or one that quantity() knows for every ensemble, as it is now. The
-  /// ensembles must still be there.
+  /// For a quantity by name, "density" (Eq 4) or one that quantity() accepts for every ensemble, with current values.
+  /// The ensembles must still exist.
   FieldValues value(std::span<double const> points, std::string_view quantity,
                     Derivatives derivatives = Derivatives::none) const;
-  /// The density and then each column, in one go over the neighbours.
+  /// The density and then each column, in one pass over the neighbours.
   std::vector<FieldValues> values(std::span<double const> points, std::span<SmoothColumn const> columns,
                                   Derivatives derivatives = Derivatives::none) const;
 
-  /// A quantity on the nodes of a grid (make_grid), for drawings, field_waves and write_vti. "density", a name that
-  /// quantity() knows, or a field with several components ("velocity").
+  /// A quantity on the nodes of a grid (make_grid), for drawings, field_waves and write_vti. "density", a name for
+  /// quantity(), or a field with several components ("velocity").
   MeshField on_grid(MeshGrid const& grid, std::string_view quantity) const;
-  /// The same of numbers of one's own.
+  /// The same for your own numbers.
   MeshField on_grid(MeshGrid const& grid, SmoothColumn const& column, std::string name, Dimension dimension) const;
 
-  /// What the name of a quantity stands for: "density" the mass (number, in a class without mass) per volume, others as
-  /// quantity_meaning() says. Error with the names there are.
+  /// The meaning of a quantity's name: "density" is the mass (number, in a class without mass) per volume, others as in
+  /// quantity_meaning(). Error with the existing names.
   QuantityMeaning meaning(std::string_view quantity) const;
-  /// A quantity of every particle, and what it is beyond walls: velocities and what follows from them, and temperatures
-  /// as the wall has it, other vectors and tensors as in a mirror. Error with the names there are.
+  /// A quantity of every particle, and its values beyond walls: velocities, quantities derived from them, and
+  /// temperatures as the wall defines, other vectors and tensors mirrored. Error with the existing names.
   SmoothColumn column(std::string_view quantity) const;
-  /// Where the particles are: points, for fields at the particles themselves (Eq 8).
+  /// The positions of the particles as points, for fields at the particles themselves (Eq 8).
   std::vector<double> positions() const;
 
  private:
@@ -103,7 +104,7 @@ class SmoothField {
     std::array<double, 3> position;
     double mass, range, inverse_range;
   };
-  /// Whose image it is, and beyond which walls.
+  /// The particle of an image, and the walls that it is beyond.
   struct Origin {
     std::uint32_t particle;
     std::array<signed char, 3> walls;
@@ -130,7 +131,8 @@ class SmoothField {
   Cells cells_;
 };
 
-/// `count` points evenly from one to another, both included; one point is in the middle. Error for less than one.
+/// `count` evenly spaced points from one point to another, both included; a single point is in the middle. Error for
+/// less than one.
 template <int D>
 std::vector<double> points_on_line(Vector<D> const& from, Vector<D> const& to, std::size_t count) {
   std::vector<double> points;
@@ -145,7 +147,7 @@ std::vector<double> points_on_line(Vector<D> const& from, Vector<D> const& to, s
 /// The nodes of a grid, in their order in memory.
 std::vector<double> points_on_grid(MeshGrid const& grid);
 
-/// The integral over the box by the trapezoidal rule: nodes on the ends of axes that are not periodic count half.
+/// The integral over the box by the trapezoidal rule: nodes on the ends of axes that are not periodic have half weight.
 double integral(MeshField const& field, std::size_t component = 0);
 
 /// The least and the greatest density on a perfect lattice, one particle of mass one in each unit cell (study 3).

@@ -1,4 +1,4 @@
-// Averaged windowed periodograms, and the way from particles on a line to a uniform grid.
+// Averaged windowed periodograms, and interpolation of particles on a line to a uniform grid.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/fourier.hpp>
 #include <boltzmann/diagnoses/spectrum.hpp>
@@ -50,7 +50,7 @@ Spectrum averaged_periodogram(std::span<std::span<double const> const> segments,
     for (std::size_t j = 0; j < length; ++j) input[j] = window[j] * segment[j];
     transform.execute(input.data(), output.data());
     for (std::size_t k = 0; k < spectrum.density.size(); ++k) {
-      // k and length - k hold the same power; 0 and Nyquist are their own partners.
+      // k and length - k have the same power; 0 and Nyquist are their own partners.
       double const partners = k == 0 || 2 * k == length ? 1.0 : 2.0;
       spectrum.density[k] += partners * (output[2 * k] * output[2 * k] + output[2 * k + 1] * output[2 * k + 1]);
     }
@@ -92,7 +92,7 @@ Spectrum power_spectrum(std::span<double const> samples, double spacing, Spectru
   std::vector<double> window;
   switch (method) {
     case SpectrumMethod::parzen_two_segments:
-      length = (n + 1) / 2;  // of an odd number of samples, both segments have the one in the middle
+      length = (n + 1) / 2;  // for an odd number of samples, both segments have the one in the middle
       count = 2;
       window = parzen_window(length);
       break;

@@ -1,4 +1,4 @@
-// Means, standard errors and least squares, in two passes each: first the means, then what is around them.
+// Means, standard errors and least squares, in two passes each: first the means, then the deviations.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/diagnoses/statistics.hpp>
 
@@ -29,7 +29,7 @@ std::string text_of(MeanError const& value) {
   if (!std::isfinite(value.mean)) return "nan";
   if (!std::isfinite(value.error)) return fmt::format("{:.6g}", value.mean);
   if (value.error == 0) return fmt::format("{:.6g} ± 0", value.mean);
-  // The place of the error's second digit, after rounding has carried over (0.0996 is 0.10).
+  // The decimal place of the error's second digit, after rounding has carried over (0.0996 is 0.10).
   std::string const rounded = fmt::format("{:.1e}", value.error);
   int const last = std::stoi(rounded.substr(rounded.find('e') + 1)) - 1;
   double const larger = std::max(std::abs(value.mean), value.error);

@@ -35,7 +35,7 @@ double periods(std::array<int, 3> const& mode, std::span<double const> lengths) 
   return std::sqrt(k2);
 }
 
-/// One of k and -k for each, without 0.
+/// One of each pair k and -k, without 0.
 std::vector<std::array<int, 3>> modes_of(std::span<double const> lengths, std::size_t periods_at_most) {
   double const longest = longest_side(lengths), limit = static_cast<double>(periods_at_most) * (1 + 1e-12);
   std::array<int, 3> most{0, 0, 0};
@@ -57,7 +57,7 @@ std::array<int, 3> most_of(std::span<std::array<int, 3> const> modes) {
   return most;
 }
 
-/// Of the groups of all ensembles.
+/// The rows of the groups of all ensembles.
 std::vector<double const*> rows_of(std::vector<AnyEnsemble const*> const& ensembles,
                                    std::span<std::uint32_t const> group) {
   std::vector<double const*> rows;
@@ -81,7 +81,7 @@ class Phases {
     }
   }
 
-  /// The phases along x and y of all particles, which many wave vectors share.
+  /// The phases along x and y of all particles, which several wave vectors share.
   struct Shared {
     int x = -1, y = 0;
     std::vector<std::complex<double>> phases = {};
@@ -238,7 +238,7 @@ std::vector<double> StructureFactor::s_of_modes() const {
   return s;
 }
 
-/// Shells half as thick as the shortest wave vector is long.
+/// Shells with a thickness of half the shortest wave vector.
 StructureFactor::Shells StructureFactor::shells() const {
   Shells shells;
   if (looks_ == 0) return shells;

@@ -1,4 +1,4 @@
-// Structure factor: how strongly the particles' density varies with the wave vectors that fit into a periodic box.
+// Structure factor: the fluctuations of the particles' density at the wave vectors of a periodic box.
 #pragma once
 
 #include <boltzmann/core/words.hpp>
@@ -13,39 +13,39 @@
 
 namespace boltzmann {
 
-/// How the sums over particles are found.
+/// The method of the sums over particles.
 enum class WaveSums {
   direct,  ///< wave by wave: exact
-  mesh     ///< all at once by a mesh (MeshAmplitudes), which costs as much as some 30 waves
+  mesh     ///< all at once by a mesh (MeshAmplitudes), at the cost of some 30 waves
 };
 Words<WaveSums> const& wave_sums_words();
 
 struct StructureFactorOptions {
-  /// None: of all particles; one: of it; two: the partial one between them.
+  /// Empty: of all particles; one: of it; two: the partial one between them.
   std::vector<std::string> ensembles = {};
   std::string label = {};  ///< before the columns' names; empty: the ensembles
-  std::size_t modes = 12;  ///< wave vectors are as long as so many periods in the longest side, or shorter
+  std::size_t modes = 12;  ///< limit of wave vectors: this number of periods in the longest side
   WaveSums by = WaveSums::direct;
-  double since = 0;                           ///< the time of the first look
-  std::size_t every = 1;                      ///< looks at rows whose steps are multiples of it
+  double since = 0;                           ///< time of the first sample
+  std::size_t every = 1;                      ///< samples are rows whose steps are multiples of it
   std::vector<std::uint32_t> particles = {};  ///< a group of one ensemble; empty: all
   std::vector<std::uint32_t> partners = {};   ///< of the same ensemble: the partial one between both groups
 };
 
-/// S(k) = <|sum_i exp(-i k r_i)|^2> / N, for every wave vector 2 pi (n_x/L_x, n_y/L_y, n_z/L_z) up to a
-/// length, in the mean over looks and over those of about the same length; between two ensembles
-/// S_ab(k) = Re <rho_a rho_b*> / sqrt(N_a N_b) (Ashcroft and Langreth 1967). Columns: the highest value in the table and
-/// its wave number. Table: wave number, S, how many wave vectors (k and -k are one). By a mesh an amplitude is wrong by
-/// 1.1e-5 of N at most, and by 1.1e-5 of its own size where particles know nothing of the mesh.
+/// S(k) = <|sum_i exp(-i k r_i)|^2> / N, for every wave vector 2 pi (n_x/L_x, n_y/L_y, n_z/L_z) up to a length,
+/// averaged over samples and over wave vectors of similar length; between two ensembles S_ab(k) = Re <rho_a rho_b*> /
+/// sqrt(N_a N_b) (Ashcroft and Langreth 1967). Columns: the highest value in the table and its wave number. Table: wave
+/// number, S, number of wave vectors (k and -k are one). With a mesh the error of an amplitude is 1.1e-5 of N at most,
+/// and 1.1e-5 of its own size for particles that are not correlated with the mesh.
 class StructureFactor final : public Diagnosis {
  public:
   using Options = StructureFactorOptions;
-  /// Error if an ensemble isn't there, or there are more than two (with a group: more than one).
+  /// Error if an ensemble does not exist, or there are more than two (with a group: more than one).
   StructureFactor(std::vector<AnyEnsemble const*> const& available, Options options);
 
   std::vector<Column> columns() const override;
   double since() const { return options_.since; }
-  /// Error if an axis is not periodic, or there are more wave vectors than one can sum.
+  /// Error if an axis is not periodic, or there are too many wave vectors to sum.
   void check(Box const& box) const override;
   void measure(Sample const& sample, std::vector<double>& values) override;
   std::vector<GatheredTable> tables() const override;
@@ -54,7 +54,7 @@ class StructureFactor final : public Diagnosis {
   void restore(std::span<double const> state) override;
 
   std::size_t looks() const { return looks_; }
-  /// Of the wave vectors one by one: {n_x, n_y, n_z} and S.
+  /// For each wave vector: {n_x, n_y, n_z} and S.
   std::vector<std::array<int, 3>> const& modes() const { return modes_; }
   std::vector<double> s_of_modes() const;
 
@@ -67,9 +67,9 @@ class StructureFactor final : public Diagnosis {
   Options options_;
   std::string label_;
   std::size_t looks_ = 0;
-  std::vector<double> lengths_;  // of the box, in the mean over looks
+  std::vector<double> lengths_;  // of the box, averaged over samples
   std::vector<std::array<int, 3>> modes_;
-  std::vector<double> sums_;  // of S over looks, for each mode
+  std::vector<double> sums_;  // of S over samples, for each mode
 };
 
 }  // namespace boltzmann

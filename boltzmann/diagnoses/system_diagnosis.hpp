@@ -1,4 +1,4 @@
-// SystemDiagnosis: what is measured of the whole system, or of each ensemble that is named. Private to this room.
+// SystemDiagnosis: base of diagnoses of the whole system, or of each named ensemble. Private to this module.
 #pragma once
 
 #include <boltzmann/diagnoses/instruments.hpp>
@@ -36,7 +36,7 @@ class SystemDiagnosis : public Diagnosis {
   int dimension() const { return dimension_; }
   virtual std::vector<Column> columns_of_one() const = 0;
   virtual void measure_one(Ensembles of, Sample const& sample, std::vector<double>& values) = 0;
-  /// What belongs to the whole system only, after the others.
+  /// Columns of the whole system only, after the others.
   virtual std::vector<Column> columns_of_all() const { return {}; }
   virtual void measure_all(Sample const&, std::vector<double>&) {}
 

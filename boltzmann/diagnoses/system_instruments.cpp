@@ -1,4 +1,4 @@
-// Numbers, momenta, temperatures, energies, pressures: each turns the plain functions of measures.hpp into columns.
+// Numbers, momenta, temperatures, energies, pressures: each converts functions of measures.hpp to columns.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/diagnoses/entropy.hpp>
 #include <boltzmann/diagnoses/system_diagnosis.hpp>
@@ -88,7 +88,7 @@ class TemperatureDiagnosis final : public SystemDiagnosis {
   bool subtract_drift_;
 };
 
-/// Energies of the whole system; of named ensembles the kinetic energy besides.
+/// Energies of the whole system; for named ensembles also the kinetic energy.
 class Energies final : public SystemDiagnosis {
  public:
   explicit Energies(DiagnosisParameters const& parameters)
@@ -142,7 +142,8 @@ class Pressure final : public SystemDiagnosis {
   }
 };
 
-/// Of a flow that the images of a sheared box drive: minus the momentum along it that goes up its gradient, over its rate.
+/// The viscosity of a flow that the images of a sheared box drive: minus the flux of its momentum up the gradient,
+/// divided by the rate.
 class Viscosity final : public Diagnosis {
  public:
   explicit Viscosity(DiagnosisParameters const& parameters)
@@ -171,7 +172,7 @@ class Viscosity final : public Diagnosis {
   int dimension_;
 };
 
-/// S / N k of an ideal gas (figure 3 of SPAM): of all ensembles that have what it needs, or of each named one.
+/// S / N k of an ideal gas (figure 3 of SPAM): of all ensembles with the necessary fields, or of each named one.
 class EntropyDiagnosis final : public SystemDiagnosis {
  public:
   explicit EntropyDiagnosis(DiagnosisParameters const& parameters)

@@ -1,4 +1,4 @@
-// Looks that are remembered, and what comes after them.
+// Stored samples, and comparisons with later ones.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/exact_sum.hpp>
 #include <boltzmann/diagnoses/chosen.hpp>
@@ -18,7 +18,7 @@
 namespace boltzmann {
 namespace {
 
-/// Without the mean over all particles.
+/// Subtracts the mean over all particles.
 void subtract_mean(std::vector<double>& values, std::size_t D) {
   auto const count = static_cast<double>(values.size() / D);
   for (std::size_t a = 0; a < D; ++a) {
@@ -29,7 +29,7 @@ void subtract_mean(std::vector<double>& values, std::size_t D) {
   }
 }
 
-/// The sums over particles of what the components of each give together, and of its squares.
+/// The sums over particles of the contributions of their components, and of the squares.
 template <class OfComponent>
 std::array<double, 2> sums_over(std::span<double const> then, std::span<double const> now, std::size_t D,
                                 OfComponent of) {
@@ -208,7 +208,7 @@ std::array<double, 2> VelocityAutocorrelation::compared(std::span<double const> 
 
 void VelocityAutocorrelation::add_values(Followed const& followed, std::vector<double>& values) const {
   auto const c = means(followed);
-  bool const whole = c.size() == options().count + 1;  // else it ends too early
+  bool const whole = c.size() == options().count + 1;  // otherwise it is too short
   values.push_back(whole ? running_integral(c, std::abs(interval())).back() / dimension() : unknown);
 }
 
@@ -221,7 +221,7 @@ std::vector<GatheredTable> VelocityAutocorrelation::tables() const {
     for (double& d : diffusion) d /= dimension();
     std::vector<double> normalised, frequency, spectrum;
     for (double const x : c) normalised.push_back(x / c[0]);
-    // From 0 to the frequency of looks by twos, as fine as the lags allow.
+    // From 0 to half the sampling frequency, as fine as the lags allow.
     std::size_t const n = c.size() < 2 ? 0 : c.size() - 1;
     double const dt = std::abs(interval());
     for (std::size_t k = 0; n > 0 && k <= n; ++k) {

@@ -1,4 +1,4 @@
-// What a diagnosis gives where a number can't be had.
+// The value of a diagnosis for unknown numbers.
 #pragma once
 
 #include <limits>

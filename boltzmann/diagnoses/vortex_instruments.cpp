@@ -1,4 +1,4 @@
-// What a flow of vortices has.
+// Diagnoses of a flow of vortices.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/diagnoses/system_diagnosis.hpp>
 #include <boltzmann/diagnoses/vortex_measures.hpp>

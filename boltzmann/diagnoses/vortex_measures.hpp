@@ -1,5 +1,5 @@
-// Vortex measures: what a flow of vortices conserves without viscosity and boundaries, over the density of the fluid.
-// Exact sums over the particles (ExactSum); ensembles without vorticity add nothing.
+// Vortex measures: the quantities that a flow of vortices conserves without viscosity and boundaries, over the density
+// of the fluid. Exact sums over the particles (ExactSum); ensembles without vorticity contribute nothing.
 #pragma once
 
 #include <boltzmann/diagnoses/measures.hpp>
@@ -8,15 +8,16 @@ namespace boltzmann {
 
 bool has_vorticity(AnyEnsemble const& ensemble);
 
-/// Of elements with circulation Gamma (2D) or vorticity times volume alpha (3D) at x (P. G. Saffman, Vortex Dynamics,
+/// For elements with circulation Gamma (2D) or vorticity times volume alpha (3D) at x (P. G. Saffman, Vortex Dynamics,
 /// chapter 3). In 2D circulation and angular impulse are one number, the first.
 struct VortexMeasures {
   Triple circulation{};      ///< sum Gamma; sum alpha, which is zero if vortex lines are closed
   Triple impulse{};          ///< sum Gamma (y, -x); 1/2 sum x x alpha
   Triple angular_impulse{};  ///< -1/2 sum Gamma x.x; 1/3 sum x x (x x alpha); about the origin
-  double helicity = 0;       ///< 3D: sum alpha.u, with the velocities of the present influences
+  double helicity = 0;       ///< 3D: sum alpha.u, with the velocities of the current influences
 };
-/// Of the state as it stands; on periodic axes of places in the box, where impulses jump when vortices cross its ends.
+/// Measures of the current state. On periodic axes positions are those in the box, so that impulses jump when vortices
+/// cross its ends.
 VortexMeasures vortex_measures(Ensembles of);
 
 }  // namespace boltzmann

@@ -103,7 +103,7 @@ WavePower WaveSpectrum::power() const {
     window_power += window[t] * window[t];
   }
   result.power.assign(rows * columns, 0.0);
-  // exp(-i omega t) and exp(i k x): the transform in time runs backward.
+  // exp(-i omega t) and exp(i k x): the transform in time is backward.
   LineTransform const transform(FourierKind::complex_backward, looks);
   FourierArray input(2 * looks), output(2 * looks);
   for (std::size_t c = 0; c < columns; ++c) {

@@ -24,7 +24,7 @@ template <int W>
   return chi;
 }
 
-/// 1, or -1 where the two particles of a pair would be named in the other order: the sign of noise along axes.
+/// 1, or -1 where the numbers of the pair are in reverse order: the sign of noise along axes.
 template <int W>
 [[gnu::always_inline]] inline Reals<W> order_of(Words<W> target, Words<W> source, PairNoise const& noise) {
   if (!noise.same) return noise.first ? 1.0 : -1.0;
@@ -32,7 +32,7 @@ template <int W>
   return from_bits<W>(bits_of<W>(Reals<W>(1.0)) | (swapped & sign_bit));
 }
 
-/// `count` normals of a pair of particles of these numbers, whichever is looked at first.
+/// `count` normals of a pair of particles with these numbers, the same in either order.
 template <int W, int count>
 [[gnu::always_inline]] inline void draw_normals(Words<W> target, Words<W> source, PairNoise const& noise,
                                                 Reals<W> (&normal)[count + count % 2]) {
@@ -71,8 +71,8 @@ template <int W>
   return __builtin_convertvector(*reinterpret_cast<Narrow<W> const*>(numbers), Words<W>);
 }
 
-/// What one particle gets from another: momentum, and the energy that both lose; what the first loses besides, and the
-/// second gains.
+/// The exchange between two particles: the momentum of one from the other, the energy that both lose, and the further
+/// energy that the first loses and the second gains.
 template <int W, int D>
 struct Exchange {
   Vector<D, Reals<W>> momentum;
@@ -81,11 +81,11 @@ struct Exchange {
 
 // ---- Typed friction ----
 
-/// Results of its program for this many pairs stand behind each other.
+/// The results of its program for this number of pairs are contiguous.
 inline constexpr std::size_t typed_results = 3;
 
-/// Runs the program of typed friction on `count` pairs, at most block_pairs, whose points `p(lane)` and `q(lane)` give;
-/// pair k's results come to out[k], out[stride + k], ...
+/// Runs the program of typed friction for `count` pairs, at most block_pairs, with points `p(lane)` and `q(lane)`. The
+/// results of pair k are written to out[k], out[stride + k], ...
 template <int W, int D, class P, class Q>
 [[gnu::always_inline]] inline void run_typed(Workspace<W>& work, PairNoise const& noise, std::size_t count, P const& p,
                                              Q const& q, double* out, std::size_t stride) {
@@ -111,15 +111,15 @@ template <int W>
   run_row<W>(work, program);
 }
 
-/// How two particles stand to each other: from the second to the first, one over the distance, and chi: zero out of
-/// range, and for projected friction at one place, where there is no line of centres. `typed`: results of the program of
-/// typed friction for these pairs, if it is typed.
+/// The geometry of two particles: the vector from the second to the first, one over the distance, and chi. chi is zero
+/// out of range, and for projected friction of coincident particles, which have no line of centres. `typed`: results of
+/// the program of typed friction for these pairs, if it is typed.
 template <int W, int D, bool projected, bool is_typed>
 struct Separation {
   Vector<D, Reals<W>> line;
   Reals<W> inverse, chi;
   Reals<W> conduction;  ///< chi of conduction
-  Reals<W> change;      ///< of friction with the temperature, times chi^2; of typed friction alone
+  Reals<W> change;      ///< of friction with the temperature, times chi^2; of typed friction only
 
   [[gnu::always_inline]] Separation(DissipationPoint<D, Reals<W>> const& p, DissipationPoint<D, Reals<W>> const& q,
                                     PairNoise const& noise, double const* typed, std::size_t stride)
@@ -199,7 +199,7 @@ typedef double Octet __attribute__((vector_size(64)));
           __builtin_shufflevector(ab1, cd1, 2, 3, 10, 11, 6, 7, 14, 15)};
 }
 
-/// Adds W rows of four numbers, given as columns, to where `row(lane)` points.
+/// Adds W rows of four numbers, given as columns, to the rows `row(lane)`.
 template <int W, class RowOf>
 [[gnu::always_inline]] inline void scatter(RowOf row, Reals<W> const (&columns)[4]) {
   if constexpr (W == 8) {
@@ -227,8 +227,8 @@ template <int W>
   }
 }
 
-/// Groups of a row whose noise is drawn before it is used, so that the long way from a counter to a normal is gone by
-/// several at a time.
+/// Groups of a row whose noise is drawn in advance, so that the long latency from a counter to a normal overlaps for
+/// several.
 inline constexpr std::size_t noise_groups = 48;
 
 /// The noise of groups [first, last) of a row.
@@ -248,7 +248,7 @@ template <int W, int count>
 
 inline constexpr std::size_t typed_stride = noise_groups * list_padding;
 
-/// The results of typed friction's program for groups [first, last) of a row; where those of further groups come.
+/// The results of typed friction's program for groups [first, last) of a row; returns the end of the output.
 template <int W, int D>
 [[gnu::noinline]] double* weigh_row(DissipationTask const& task, std::size_t i, std::size_t first, std::size_t last,
                                     double* out) {
@@ -271,8 +271,8 @@ template <int W, int D>
   return out;
 }
 
-/// What friction and noise do between a row and its groups [first, last). `typed`: results of typed friction's program
-/// for them, if it is typed.
+/// Friction and noise between a row and its groups [first, last). `typed`: results of typed friction's program for
+/// them, if it is typed.
 template <int W, int D, bool projected, bool conducts, bool is_typed>
 [[gnu::always_inline]] inline double const* exchange_row(DissipationTask const& task, std::size_t i, std::size_t first,
                                                          std::size_t last, double const* noise, double const* typed) {
@@ -409,7 +409,7 @@ template <int W, int D, bool projected>
     }
     store(0, k, chi);
     store(weight_column, k, conduction);
-    if (task.noise.of_temperature) {  // temperatures change from pair to pair: chi comes later
+    if (task.noise.of_temperature) {  // temperatures change from pair to pair: chi is computed later
       Reals<W> const one = 1.0, zero = 0.0, r2 = norm2(apart.line), inside = select(r2 < task.noise.range2, one, zero);
       store(0, k, projected ? select(r2 > zero, inside, zero) : inside);
       store(weight_column, k, r2);

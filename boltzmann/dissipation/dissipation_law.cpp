@@ -1,4 +1,4 @@
-// Names of conventions and methods, and what a dissipation may be.
+// Names of conventions and methods, and checks of parameters.
 #include <boltzmann/dissipation/pair_dissipation.hpp>
 #include <boltzmann/dissipation/typed_friction.hpp>
 

@@ -1,4 +1,4 @@
-// Dissipation: what one kind of friction and noise between two particles is made of.
+// Dissipation law: the parameters of one kind of friction and noise between two particles.
 #pragma once
 
 #include <boltzmann/core/words.hpp>
@@ -8,13 +8,13 @@
 
 namespace boltzmann {
 
-/// Which fluctuation-dissipation relation friction gamma and noise sigma obey. With beta = (1/Ti + 1/Tj) / 2k:
+/// The fluctuation-dissipation relation of friction gamma and noise sigma. With beta = (1/Ti + 1/Tj) / 2k:
 enum class Convention {
   fixed_temperature,  ///< DPD: sigma^2 = 2 gamma k T with the T of a heat bath; energy is not conserved
   constant_noise,     ///< DPDE, convention A: sigma^2 = 2 gamma k T_ref for all pairs, their friction sigma^2 beta / 2
   constant_friction,  ///< DPDE, convention B': sigma^2 = 2 gamma / beta, and the friction
-                      ///< gamma [1 + (1/(Ti^2 Ci) + 1/(Tj^2 Cj)) / (4 k beta^2)] that the noise's change with energy
-                      ///< asks
+                      ///< gamma [1 + (1/(Ti^2 Ci) + 1/(Tj^2 Cj)) / (4 k beta^2)] which balances the change of noise
+                      ///< with energy
   deterministic,      ///< no noise: friction gamma (T_ext - T_int) / T_ref, of either sign (section 4 of the source)
 };
 
@@ -22,27 +22,27 @@ class TypedFriction;
 
 Words<Convention> const& convention_words();
 std::string to_string(Convention convention);
-/// Why friction can't depend on the temperature of the pair with another convention than constant_friction.
+/// The reason why friction can't depend on the temperature of the pair with a convention other than constant_friction.
 std::string why_no_temperature(Convention convention);
 
 /// Friction, noise and heat conduction between two particles at distance r, with chi = (1 - r / range)^exponent up to
-/// the range (Eq 1 to 4 of the DPDE source, put right):
+/// the range (Eq 1 to 4 of the DPDE source, corrected):
 ///   dp_i = -gamma_ij chi^2 v_ij dt + sigma_ij chi dW_ij,  p_j the opposite,
-/// v_ij and dW_ij along the line of centres if it is projected, else whole vectors; internal energies take half each of
-/// what the motion loses. Conduction: d eps_i = kappa chi^2 (1/Ti - 1/Tj) dt + sqrt(2 k kappa) chi dW, eps_j the
-/// opposite.
+/// v_ij and dW_ij along the line of centres if it is projected, else full vectors; each internal energy gains half of
+/// the energy that the motion loses. Conduction: d eps_i = kappa chi^2 (1/Ti - 1/Tj) dt + sqrt(2 k kappa) chi dW, eps_j
+/// the opposite.
 struct DissipationLaw {
   Convention convention = Convention::constant_friction;
   double friction = 0;     ///< gamma, mass per time
-  double temperature = 0;  ///< of the heat bath, or T_ref where the convention has one; else it is not used
+  double temperature = 0;  ///< of the heat bath, or T_ref if the convention has one; otherwise not used
   double range = 0;
-  double exponent = 1;    ///< of chi, zero or more: friction falls off with twice that
+  double exponent = 1;    ///< of chi, zero or more: friction decreases with twice this exponent
   bool projected = true;  ///< along the line of centres: angular momentum is conserved as well
   double conduction = 0;  ///< kappa, energy times temperature per time; 0: no heat conduction
-  /// Formulas in place of chi and, perhaps, of the friction; null: none. with_formulas() makes such a law.
+  /// Formulas for chi and, optionally, for the friction; null: none. with_formulas() makes such a law.
   std::shared_ptr<TypedFriction const> typed = {};
 
-  /// Error with one line if a parameter can't be, or one is given that the convention does not use.
+  /// Error with one line if a parameter is invalid, or one is set that the convention does not use.
   void check() const;
 };
 

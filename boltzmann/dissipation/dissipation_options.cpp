@@ -7,7 +7,7 @@ namespace {
 
 using namespace option;
 
-/// Dissipation times temperature: what moves between two particles is kappa (1/Ti - 1/Tj).
+/// Dissipation times temperature: the flux between two particles is kappa (1/Ti - 1/Tj).
 constexpr Dimension conduction = dimensions::energy * dimensions::temperature / dimensions::time;
 
 OptionTable make_dissipation_options() {

@@ -1,4 +1,4 @@
-// Dissipation options: the kinds of friction and noise that scenarios name, with their keys.
+// Dissipation options: the kinds of friction and noise in scenarios, with their keys.
 #pragma once
 
 #include <boltzmann/core/options.hpp>
@@ -11,7 +11,7 @@
 
 namespace boltzmann {
 
-/// One kind of friction between pairs, and how all of a scenario act together.
+/// One kind of friction between pairs, and the method for all kinds of a scenario.
 struct DissipationOptions {
   DissipationLaw dissipation;
   DissipationMethod method = DissipationMethod::simultaneous;
@@ -19,14 +19,14 @@ struct DissipationOptions {
 };
 OptionTable const& dissipation_options();
 
-/// A heat bath (see HeatBath), on each particle or on the kinetic energy of all.
+/// A heat bath (see HeatBath), on each particle or on the total kinetic energy.
 struct BathOptions {
   double temperature = 0, rate = 0;
   std::optional<std::array<double, 3>> low, high;  ///< of the block in which it acts
-  int chain = 3;                                   ///< links of one of Nose and Hoover
+  int chain = 3;                                   ///< links of a Nose-Hoover chain
 };
 OptionTable const& bath_options();
-/// Of one that acts before the run begins.
+/// The options of a bath that acts before the run.
 OptionTable const& equilibration_bath_options();
 
 struct DissipationKind {

@@ -1,4 +1,4 @@
-// Dissipation points: what friction and noise need to know of a particle, whatever its class.
+// Dissipation points: the numbers of a particle for friction and noise, for any class.
 #pragma once
 
 #include <boltzmann/core/vector.hpp>
@@ -15,7 +15,7 @@ struct DissipationPoint {
   Real inverse_mass;
   Vector<D, Real> velocity;
   Real inverse_temperature;
-  Real curvature;  ///< 1 / (T^2 C), by which 1 / T falls when the energy grows
+  Real curvature;  ///< 1 / (T^2 C), the rate at which 1 / T falls with the energy
 };
 
 /// Doubles from one point to the next.

@@ -1,4 +1,4 @@
-// What heat baths refuse, and their temperature.
+// Checks of heat baths, and their temperature.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/dissipation/heat_bath.hpp>
 

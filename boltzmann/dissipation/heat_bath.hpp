@@ -1,4 +1,4 @@
-// HeatBath: what baths that bring particles to a temperature have in common: on whom they act, and how hot they are.
+// HeatBath: the common part of baths that bring particles to a temperature: their particles and their temperature.
 #pragma once
 
 #include <boltzmann/dissipation/dissipation.hpp>
@@ -12,7 +12,7 @@ namespace boltzmann {
 
 class HeatBath : public Dissipation {
  public:
-  /// A block of space, edges included.
+  /// A block of space, including its edges.
   struct Block {
     std::array<double, 3> low, high;
   };
@@ -21,18 +21,18 @@ class HeatBath : public Dissipation {
   /// otherwise.
   HeatBath(double temperature, double rate, double boltzmann_constant);
 
-  /// Lets it act on an ensemble, all of them together. Error if its class has no mass and velocity.
+  /// Adds an ensemble; all act together. Error if its class has no mass and velocity.
   void on(AnyEnsemble& ensemble);
-  /// Only on those of them that are in this block when it acts. Error if low is not below high.
+  /// Restricts it to particles that are in this block when it acts. Error if low is not below high.
   virtual void within(Block const& block);
-  /// From now on: a number, zero or more (Error otherwise), or a function of the time.
+  /// Changes the temperature: to a number, zero or more (Error otherwise), or a function of the time.
   void temperature(double temperature);
   void temperature(std::function<double(double time)> of_time) { of_time_ = std::move(of_time); }
-  /// At this time; PhysicsFailure if the function gives no number of zero or more.
+  /// At this time; PhysicsFailure if the function gives a negative number or NaN.
   double temperature_at(double time) const;
 
   std::vector<AnyEnsemble*> ensembles() const override { return ensembles_; }
-  /// Error where a mass is not positive.
+  /// Error if a mass is not positive.
   void check() override;
   std::string undivided() const override { return ""; }
   bool spares_resting() const override { return true; }
@@ -55,7 +55,7 @@ class HeatBath : public Dissipation {
   };
 
   std::optional<Block> const& block() const { return block_; }
-  /// Whether it acts on particle i of an ensemble: not if that rests, or is outside its block.
+  /// True if it acts on particle i of an ensemble: false if the particle rests, or is outside its block.
   bool acts_on(AnyEnsemble const& ensemble, std::size_t i) const {
     if (!block_) return ensemble.mobility.moves(i);
     double const* const row = ensemble.row(i);

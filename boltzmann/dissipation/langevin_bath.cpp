@@ -15,8 +15,8 @@ namespace boltzmann {
 namespace {
 
 constexpr std::size_t grain = 2048;
-constexpr std::uint32_t of_single_particles = 0x80000000U;  // apart from the counters of pairs' noise
-constexpr double long_step = 2;                             // in times of relaxation
+constexpr std::uint32_t of_single_particles = 0x80000000U;  // distinct from the counters of pairs' noise
+constexpr double long_step = 2;                             // in relaxation times
 
 }  // namespace
 

@@ -1,4 +1,4 @@
-// Langevin dissipation: friction and noise from a heat bath on each particle, the way to bring a body to a temperature.
+// Langevin dissipation: friction and noise of a heat bath on each particle, to bring a body to a temperature.
 #pragma once
 
 #include <boltzmann/dissipation/heat_bath.hpp>
@@ -6,8 +6,8 @@
 namespace boltzmann {
 
 /// dv = -rate v dt + sqrt(2 rate k T / m) dW, solved exactly over a step (Ornstein-Uhlenbeck): with leap-frog it
-/// samples exp(-H / kT) to second order in the step. Momentum is not conserved. Noise depends on the seed, the step and
-/// the particle's number alone.
+/// samples exp(-H / kT) to second order in the step. Momentum is not conserved. Noise depends only on the seed, the
+/// step and the particle's number.
 class LangevinBath final : public HeatBath {
  public:
   using HeatBath::HeatBath;

@@ -1,4 +1,4 @@
-// What the dissipation of pairs holds of its ensembles and of the pairs between them. Private to this room.
+// The data of pair dissipation on its ensembles and the pairs between them. Private to this module.
 #pragma once
 
 #include <boltzmann/dissipation/dissipation_kernels.hpp>
@@ -12,11 +12,11 @@
 
 namespace boltzmann {
 
-/// Rows of an ensemble are taken in chunks of so many: what is written for a chunk belongs to it alone.
+/// Rows of an ensemble are processed in chunks of this size; output for a chunk belongs to it alone.
 inline constexpr std::size_t dissipation_chunk = 8192;
 
-/// Rows of one chunk, from `begin` to before `end`, on which one thread works. Their sums have the bits that they have
-/// where all rows of the chunk are worked on together.
+/// Rows [begin, end) of one chunk, for one thread. Their sums are bit-for-bit those of processing the whole chunk at
+/// once.
 struct PairDissipation::Piece {
   std::size_t begin, end;
 
@@ -28,12 +28,12 @@ struct PairDissipation::Piece {
 
 struct PairDissipation::Member {
   AnyEnsemble* ensemble;
-  int mass, velocity, energy = -1, temperature = -1;  // where these fields are in a row; -1: not there
+  int mass, velocity, energy = -1, temperature = -1;  // offsets of these fields in a row; -1: missing
   std::optional<StateLaw> law;
   SortedCopy const* copy = nullptr;
   bool dissipates = false, at_fixed_temperature = false;
   AlignedVector<double> points;     // of the rows of the sorted copy
-  AlignedVector<double> predicted;  // the corrector's last try: 4 numbers an owned row (see DissipationTask)
+  AlignedVector<double> predicted;  // the corrector's last iteration: 4 numbers an owned row (see DissipationTask)
   std::vector<Piece> pieces;        // of the rows of this rank
   std::vector<double> energies;     // Shardlow's splitting: of the owned rows
   std::size_t first_chunk = 0;      // among those of all members
@@ -43,7 +43,7 @@ struct PairDissipation::Member {
   std::size_t owned() const { return copy->owned(); }
   std::size_t chunks() const { return (owned() + dissipation_chunk - 1) / dissipation_chunk; }
   double* point(std::size_t row) { return points.data() + stride() * row; }
-  // Where numbers stand in a dissipation point.
+  // The offset of the velocity in a dissipation point.
   int velocity_at() const { return dimension() + 1; }
   int inverse_mass_at() const { return dimension(); }
   bool has_energy() const { return law.has_value() && !at_fixed_temperature; }
@@ -51,13 +51,13 @@ struct PairDissipation::Member {
   void take_sentinel_and_images(int threads);
   void take_mean_velocities(int threads);
   void show_images(int first, int count);
-  /// In a sheared box: the velocities of points become those of their rows (SortedCopy::ahead_in_flow()).
+  /// In a sheared box: changes the velocities of points to those of their rows (SortedCopy::ahead_in_flow()).
   void carry_along_flow();
-  /// Of which particle somebody speaks.
+  /// Names a particle in messages.
   std::string who(std::size_t row) const;
 };
 
-/// Rows [begin, begin + row.size()) of a chunk, which come before a piece and have pairs with it.
+/// Rows [begin, begin + row.size()) of a chunk, which precede a piece and have pairs with it.
 struct PairDissipation::Border {
   std::size_t begin = 0;
   std::vector<std::uint32_t> entries;
@@ -68,21 +68,21 @@ struct PairDissipation::Border {
 struct PairDissipation::Coupling {
   Member *target, *source;
   DissipationLaw dissipation;
-  FormulaProgram typed;                             // of its formulas, if it has some, for the kernels in use
+  FormulaProgram typed;                             // of its formulas, if it has any, for the kernels in use
   std::size_t list;                                 // its number in the neighbourhood
   std::uint32_t number;                             // for random streams; the same for both directions
-  bool first;                                       // whether targets are the first of the two ensembles
-  std::size_t builds = ~std::size_t{0}, moves = 0;  // of the neighbourhood, when pairs were taken from its lists
-  // Of each piece of the targets (see DissipationTask):
+  bool first;                                       // targets are the first of the two ensembles
+  std::size_t builds = ~std::size_t{0}, moves = 0;  // of the neighbourhood, when pairs were last read from its lists
+  // For each piece of the targets (see DissipationTask):
   std::vector<std::vector<std::uint32_t>> entries;
   std::vector<Border> borders;
-  // Of the targets:
+  // For the targets:
   std::vector<std::uint32_t const*> row;
   std::array<std::vector<std::uint32_t>, list_rings> length;
 
   bool same() const { return target == source; }
   bool vanishes() const { return dissipation.friction == 0 && dissipation.conduction == 0; }
-  /// Brings what there is of a piece up to date.
+  /// Brings the pairs of a piece up to date.
   void take_piece(std::size_t piece, NeighbourList const& neighbours);
   void take_border(std::size_t piece, NeighbourList const& neighbours);
   double mean_friction(double const* p, double const* q, double r2) const;

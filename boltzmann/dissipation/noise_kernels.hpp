@@ -11,14 +11,14 @@ namespace boltzmann {
 
 inline constexpr std::size_t noise_block = 64;
 
-/// Normals of the particles first, first + 1, ...: what one gets depends on its number, the key and the tags alone.
+/// Normals of the particles first, first + 1, ...: they depend only on the particle's number, the key and the tags.
 struct NoiseTask {
   PhiloxKey key;
-  std::uint32_t tag[3] = {};  ///< words of the counter beside the number
-  std::uint64_t first = 0;    ///< the low half counts
+  std::uint32_t tag[3] = {};  ///< words of the counter besides the number
+  std::uint64_t first = 0;    ///< only the low half is used
   std::size_t count = 0;      ///< at most noise_block
-  int each = 1;               ///< normals of a particle, 1 to 4
-  double* columns = nullptr;  ///< `each` (of an odd number one more) columns of noise_block
+  int each = 1;               ///< normals per particle, 1 to 4
+  double* columns = nullptr;  ///< `each` (rounded up to an even number) columns of noise_block
 };
 
 using NoiseKernel = void (*)(NoiseTask const& task);

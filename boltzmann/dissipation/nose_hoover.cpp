@@ -1,4 +1,4 @@
-// A chain of Nose and Hoover as a heat bath.
+// A Nose-Hoover chain as a heat bath.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/dissipation/nose_hoover.hpp>
 

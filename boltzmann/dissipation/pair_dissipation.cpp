@@ -1,4 +1,4 @@
-// What friction and noise act on: ensembles, their state laws, and the pairs that neighbour lists give.
+// The particles of friction and noise: ensembles, their state laws, and pairs from neighbour lists.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/exact_sum.hpp>
 #include <boltzmann/core/kernel_dispatch.hpp>
@@ -211,7 +211,7 @@ PairNoise PairDissipation::Coupling::noise(StepContext const& context, double k,
   return n;
 }
 
-/// A point from a row of the sorted copy, and what stands in the ensemble beside its position.
+/// A point from a row of the sorted copy, and further fields from the ensemble.
 void PairDissipation::Member::take_point(std::size_t k, double const* from) {
   double* to = point(k);
   int const D = dimension();
@@ -242,7 +242,7 @@ void PairDissipation::Member::take_sentinel_and_images(int threads) {
   });
 }
 
-/// False if lists and sorted copies are not those of the positions of now.
+/// False if lists and sorted copies are not those of the current positions.
 bool PairDissipation::take_points() {
   Box const& box = scheme_.box();
   std::atomic<bool> current = scheme_.neighbourhood().builds() > 0;
@@ -253,10 +253,10 @@ bool PairDissipation::take_points() {
     int const dimension = m.dimension();
     if (copy.owned() != m.ensemble->size()) current = false;
     if (!current) return false;
-    std::array<double, 3> half{nowhere, nowhere, nowhere};  // further off than that, it has been wrapped
+    std::array<double, 3> half{nowhere, nowhere, nowhere};  // a larger difference means that it has been wrapped
     for (int a = 0; a < dimension; ++a)
       if (box.periodic(a)) half[a] = 0.5 * box.length(a);
-    if (box.sheared()) {  // any place along the flow may be that of an image
+    if (box.sheared()) {  // an image may be anywhere along the flow
       if (!copy.is_current()) return false;
       half.fill(-1);
     }
@@ -282,10 +282,10 @@ bool PairDissipation::take_points() {
 }
 
 namespace {
-/// Entries of rows, in groups as DissipationTask has them.
+/// Entries of rows, in the groups of DissipationTask.
 struct Groups {
   std::vector<std::uint32_t>& words;
-  std::uint32_t sentinel, taken = 0;  // of the row at hand
+  std::uint32_t sentinel, taken = 0;  // of the current row
 
   void take(std::uint32_t entry, std::uint32_t number) {
     if (taken % list_padding == 0) words.resize(words.size() + 2 * list_padding);
@@ -301,8 +301,8 @@ struct Groups {
 };
 }  // namespace
 
-/// Every pair of the chunk once, in the order of the neighbour lists; with particles of other chunks, other ensembles
-/// and images, from both sides.
+/// Every pair of the chunk once, in the order of the neighbour lists; pairs with particles of other chunks, other
+/// ensembles and images from both sides.
 void PairDissipation::Coupling::take_piece(std::size_t piece, NeighbourList const& neighbours) {
   SortedCopy const& of = *source->copy;
   auto const [begin, end] = target->pieces[piece];
@@ -328,7 +328,7 @@ void PairDissipation::Coupling::take_piece(std::size_t piece, NeighbourList cons
   take_border(piece, neighbours);
 }
 
-/// Pairs with rows of the same chunk before the piece, as these rows have them: the lists of the piece tell of them.
+/// Pairs with earlier rows of the same chunk, from the side of these rows; found in the lists of the piece.
 void PairDissipation::Coupling::take_border(std::size_t piece, NeighbourList const& neighbours) {
   auto const [begin, end] = target->pieces[piece];
   std::uint32_t const low = item_of_row(target->pieces[piece].low()), high = item_of_row(begin);
@@ -373,11 +373,11 @@ std::string PairDissipation::undivided() const {
 void PairDissipation::divide(Division* division) {
   Dissipation::divide(division);
   if (division) division->read_rows();
-  for (auto& coupling : couplings_) coupling->builds = ~std::size_t{0};  // of whose rows there are pairs
+  for (auto& coupling : couplings_) coupling->builds = ~std::size_t{0};  // invalidates their pairs
 }
 
-/// Of all rows, or of those of this rank's share. Threads have about equal parts of them where chunks are few; each
-/// further cut has pairs across it that are then done twice.
+/// The pieces of all rows, or of those of this rank. Threads get roughly equal parts if there are few chunks; each
+/// further cut duplicates the work of pairs across it.
 std::vector<PairDissipation::Piece> PairDissipation::pieces(Member const& m) const {
   constexpr std::size_t few = 8;
   auto const& own = scheme_.neighbourhood().own(*m.copy);
@@ -438,9 +438,9 @@ void PairDissipation::take_lists() {
 
 void PairDissipation::advance(StepContext const& context) {
   if (!(context.dt > 0)) throw Error(fmt::format("friction and noise need a positive step, not {}", context.dt));
-  // Runs that are compared with others may have none at all.
+  // Runs for comparison may have no dissipation.
   if (std::all_of(couplings_.begin(), couplings_.end(), [](auto const& c) { return c->vanishes(); })) return;
-  if (division()) scheme_.neighbourhood().refresh(threads());  // others have been kicked since
+  if (division()) scheme_.neighbourhood().refresh(threads());  // other dissipations have changed velocities since
   if (!take_points()) {
     scheme_.neighbourhood().refresh(threads());
     take_points();
@@ -501,7 +501,7 @@ std::array<std::array<double, 3>, 3> PairDissipation::virial() {
         if (friction == 0) continue;
         for (int a = 0; a < D; ++a) along += r[a] * (p[v + a] - q[v + a]);
         for (int a = 0; a < D; ++a)
-          for (int b = 0; b < D; ++b)  // half of the pair's
+          for (int b = 0; b < D; ++b)  // half of the pair's contribution
             terms[static_cast<std::size_t>(3 * a + b)] -=
                 0.5 * friction * r[a] * (coupling->dissipation.projected ? along / r2 * r[b] : p[v + b] - q[v + b]);
       }
@@ -516,7 +516,7 @@ std::array<std::array<double, 3>, 3> PairDissipation::virial() {
   return virial;
 }
 
-/// Friction times weight, without the step: of a pair's points, the square of whose distance is r2.
+/// Friction times weight, without the step, for the points of a pair with the squared distance r2.
 double PairDissipation::Coupling::mean_friction(double const* p, double const* q, double r2) const {
   DissipationLaw const& d = dissipation;
   double const x = 1 - std::sqrt(r2) / d.range;
@@ -529,12 +529,12 @@ double PairDissipation::Coupling::mean_friction(double const* p, double const* q
 }
 
 std::vector<std::string> PairDissipation::warnings(double step_size) {
-  // With the matrix G of friction (dv = -G v dt), x = G dt and noise of variance 2 x T, a step multiplies a mode of v by
-  // 1 - x, with the corrector by 1 - x + x^2/2, with its second pass (internal energies) by 1 - x + x^2/2 - x^3/4, so
-  // that its T is off by x/2, -x^2/4, x^3/8 to leading order. Motion mixes the modes, so the mean over them is not known
-  // exactly. With s = dt tr(G^2) / tr(G), runs of fluids without forces were fitted by 0.45 s, -0.25 s^2 and 0.2 s^3, for
-  // s up to 0.2, 0.5 and 0.6; at small s the last two miss by up to 40 %. Sums are over some of the particles, whose
-  // lines of centres are taken to point everywhere.
+  // With the matrix G of friction (dv = -G v dt), x = G dt and noise of variance 2 x T, a step multiplies a mode of v
+  // by 1 - x, with the corrector by 1 - x + x^2/2, with its second pass (internal energies) by 1 - x + x^2/2 - x^3/4.
+  // So the error of its T is x/2, -x^2/4, x^3/8 to leading order. Motion mixes the modes, so the mean over them is not
+  // known exactly. With s = dt tr(G^2) / tr(G), runs of fluids without forces were fitted by 0.45 s, -0.25 s^2 and 0.2
+  // s^3, for s up to 0.2, 0.5 and 0.6; at small s the last two are off by up to 40 %. Sums are over some of the
+  // particles, with isotropic lines of centres.
   double strongest = 0;
   Neighbourhood& neighbourhood = scheme_.neighbourhood();
   neighbourhood.refresh(threads());
@@ -573,7 +573,7 @@ std::vector<std::string> PairDissipation::warnings(double step_size) {
   bool const simultaneous = method_ == DissipationMethod::simultaneous;
   bool const shares = std::any_of(members_.begin(), members_.end(), [](auto const& m) { return m->has_energy(); });
   double const s = strongest, error = !corrector_ ? 0.45 * s : shares ? 0.2 * s * s * s : -0.25 * s * s;
-  // The step at which the error is no longer noticeable, in parts of this one.
+  // The step at which the error is no longer noticeable, relative to this one.
   double const shorter = std::pow(noticeable / std::abs(error), !corrector_ ? 1.0 : shares ? 1.0 / 3 : 0.5);
   if (simultaneous && std::abs(error) > noticeable)
     lines.push_back(fmt::format(

@@ -14,41 +14,41 @@ namespace boltzmann {
 
 class ExactSum;
 
-/// How the dissipation of all pairs together is made of that of one.
+/// The method for all pairs together.
 enum class DissipationMethod {
-  simultaneous,  ///< all pairs act at once on the velocities of the step's end; each particle then gets back as heat what
-                 ///< its motion has lost (energy reinjection)
-  shardlow,      ///< one pair after the other (Shardlow), in an order that depends on neighbour lists alone
+  simultaneous,  ///< all pairs act at once on the velocities at the end of the step; each particle then regains as heat
+                 ///< what its motion has lost (energy reinjection)
+  shardlow,      ///< one pair after the other (Shardlow), in an order that depends only on neighbour lists
 };
 Words<DissipationMethod> const& dissipation_method_words();
 std::string to_string(DissipationMethod method);
 
-/// Total momentum, and total energy where particles have internal energies, are kept to rounding by every method,
-/// whatever the masses. Noise depends on the seed, the step and the numbers of the two particles alone; the same bits
-/// for any number of threads.
+/// Every method conserves total momentum to rounding, and total energy if particles have internal energies, for any
+/// masses. Noise depends only on the seed, the step and the numbers of the two particles; the same bits for any number
+/// of threads.
 class PairDissipation final : public Dissipation {
  public:
-  /// Finds pairs by the neighbour lists of this scheme, which must be one of the simulation's. Boltzmann's constant in
-  /// the simulation's units.
+  /// Uses the neighbour lists of this scheme, which must be one of the simulation's. Boltzmann's constant in the
+  /// simulation's units.
   PairDissipation(PairScheme& scheme, double boltzmann_constant);
   ~PairDissipation() override;
 
-  /// The state law of an ensemble's internal energies: needed wherever the convention is not fixed_temperature. Error
+  /// Sets the state law of an ensemble's internal energies: required unless the convention is fixed_temperature. Error
   /// if its class has no field "internal_energy".
   void state(AnyEnsemble& ensemble, StateLaw law);
-  /// Dissipation among the particles of one ensemble. Error if its class has no mass or velocity, a parameter can't be,
-  /// or the range is longer than half of a periodic axis.
+  /// Adds dissipation among the particles of one ensemble. Error if its class has no mass or velocity, a parameter is
+  /// invalid, or the range is longer than half of a periodic axis.
   void internal(AnyEnsemble& ensemble, DissipationLaw const& dissipation);
-  /// And between those of two.
+  /// Adds dissipation between those of two.
   void between(AnyEnsemble& a, AnyEnsemble& b, DissipationLaw const& dissipation);
 
   void method(DissipationMethod method) { method_ = method; }
   DissipationMethod method() const { return method_; }
-  /// simultaneous: a second pass over the pairs (a third where there are internal energies), with the mean of the
-  /// velocities before and after the one before. Kinetic temperatures, and the shares of the heat where masses differ,
-  /// are then right to second order in friction times step, not to first.
+  /// simultaneous: adds a second pass over the pairs (a third with internal energies), with the mean of the velocities
+  /// before the step and after the previous pass. Kinetic temperatures, and the parts of the heat for different masses,
+  /// are then accurate to second order in friction times step instead of first.
   void corrector(bool wanted) { corrector_ = wanted; }
-  /// shardlow: every pair's new velocities are accepted or refused (Metropolis), so that each keeps the invariant
+  /// shardlow: accepts or rejects every pair's new velocities (Metropolis), so that each pair conserves the invariant
   /// law exactly, and internal energies can't become negative.
   void metropolis(bool wanted) { metropolis_ = wanted; }
 

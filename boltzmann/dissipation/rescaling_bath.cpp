@@ -1,4 +1,4 @@
-// Kinetic energies of baths, and the scaling of velocities.
+// Kinetic energies of baths, and the rescaling of velocities.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/exact_sum.hpp>
 #include <boltzmann/core/threads.hpp>
@@ -98,7 +98,7 @@ void RescalingBath::advance(StepContext const& context) {
   Carried const carried(*this);
   Motion const now = motion();
   double const freedom = degrees(now), kT = boltzmann_constant() * temperature_at(context.time);
-  if (!(freedom > 0)) return;  // nobody is in its block
+  if (!(freedom > 0)) return;  // no moving particle is in its block
   if (!(now.kinetic > 0)) {
     if (kT > 0) throw PhysicsFailure("a heat bath scales velocities, and nobody in it moves");
     return;

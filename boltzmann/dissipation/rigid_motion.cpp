@@ -1,4 +1,4 @@
-// The leap-frog with rigid bonds (RATTLE), and velocities put right after baths.
+// The leap-frog with rigid bonds (RATTLE), and the correction of velocities after baths.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/dissipation/rigid_motion.hpp>
 
@@ -43,7 +43,7 @@ class RigidLeapFrog final : public Integrator {
     if (stage == 0) bonds_->begin_step(threads_);
     Motion const motion = inner_->advance(stage, context);
     move_ = inner_->largest_move();
-    if (move_.not_finite != LargestMove::nobody) return motion;  // the simulation says so
+    if (move_.not_finite != LargestMove::nobody) return motion;  // the simulation reports it
     if (stage == 0)
       bonds_->correct_positions(context.dt, threads_);
     else

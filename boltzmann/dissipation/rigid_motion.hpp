@@ -1,4 +1,4 @@
-// Motion with rigid bonds: the leap-frog that keeps their lengths, and what follows baths.
+// Motion with rigid bonds: the leap-frog that conserves their lengths, and the correction after baths.
 #pragma once
 
 #include <boltzmann/dissipation/dissipation.hpp>
@@ -13,10 +13,11 @@
 
 namespace boltzmann {
 
-/// Leap-frog with rigid bonds, in place of the ensemble's own.
+/// Leap-frog with rigid bonds, replacing the ensemble's own.
 std::unique_ptr<Integrator> with_rigid_bonds(std::shared_ptr<RigidBonds> bonds, std::unique_ptr<Integrator> inner);
 
-/// What follows baths: velocities lose again what stretches bonds. Add it behind them; its heat is what it takes.
+/// The correction after baths: removes velocities that stretch bonds. Add it after the baths; its heat is the removed
+/// energy.
 class RigidVelocities final : public Dissipation {
  public:
   explicit RigidVelocities(std::shared_ptr<RigidBonds> bonds) : bonds_(std::move(bonds)) {}

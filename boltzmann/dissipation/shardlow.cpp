@@ -1,4 +1,4 @@
-// Shardlow's splitting: one pair after the other, each by an implicit step that keeps its momentum and its energy
+// Shardlow's splitting: one pair after the other, each by an implicit step that conserves its momentum and its energy
 // (Shardlow).
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/exact_sum.hpp>
@@ -24,13 +24,13 @@ struct End {
   StateLaw const* law;  // null likewise
 };
 
-/// How strongly a pair is weighed: chi or, where friction depends on temperatures, the square of the distance.
+/// The weight of a pair: chi or, if friction depends on temperatures, the square of the distance.
 struct Weighing {
   double chi, square;
-  TypedFriction const* typed;  // null where chi is known
+  TypedFriction const* typed;  // null if chi is known
 };
 
-/// What multiplies v and the normal: gamma chi^2 dt, sigma chi sqrt(dt).
+/// The factors of v and the normal: gamma chi^2 dt, sigma chi sqrt(dt).
 struct Weighed {
   double friction, noise;
 };
@@ -53,13 +53,13 @@ Weighed strength_of(PairNoise const& n, Weighing const& weighing, End const& i, 
   return weighed(strength, at.strength, at.change);
 }
 
-/// What the entropy gains with some energy: of small changes without a difference of large numbers.
+/// The entropy gain for an energy; for small changes without a difference of large numbers.
 double entropy_gain(StateLaw const& law, double energy, double gained) {
   return std::abs(gained) < 1e-4 * energy ? gained / law.temperature(energy + 0.5 * gained)
                                           : law.entropy(energy + gained) - law.entropy(energy);
 }
 
-/// log of the probability density of a normal of mean 0 in so many directions, but for a constant.
+/// log of the probability density of a normal of mean 0 in this number of directions, up to a constant.
 double log_normal(double square, double deviation, int directions) {
   return -0.5 * square / (deviation * deviation) - directions * std::log(deviation);
 }
@@ -92,7 +92,8 @@ class PairSteps {
       for (int a = 0; a < D; ++a) v[a] = i.velocity[a] - j.velocity[a];
     }
     for (int a = 0; a <= directions; ++a) normal[a] = columns[static_cast<std::size_t>(4 + a) * geometry_block + k];
-    // Of its own for every coupling, and for (a1, b2) and (a2, b1): one between two ensembles has two numbers.
+    // Each coupling has a value of its own, and so have (a1, b2) and (a2, b1): the two ensembles number their particles
+    // separately.
     std::uint64_t const kind = (noise_.tag & 0xffU) + (!noise_.same && number_i > number_j ? 1 : 0);
     Stream chance = Stream::pair(
         context_.seed, context_.step | (noise_.tag >> 8U & 0xffU) << 48U, number_i, number_j,
@@ -120,7 +121,7 @@ class PairSteps {
       gained[a] = then - v[a];
       after += then * then;
     }
-    double moved = 0;  // half of what the motion gains: (v' - v).(v' + v) mu / 4
+    double moved = 0;  // half of the energy gain of the motion: (v' - v).(v' + v) mu / 4
     for (int a = 0; a < directions; ++a) moved += gained[a] * (2 * v[a] + gained[a]);
     moved *= 0.25 * reduced;
     if (i.energy) {
@@ -149,7 +150,7 @@ class PairSteps {
     return true;
   }
 
-  /// Metropolis and Hastings: with energy and momentum given, the density of v is exp((s_i + s_j) / k).
+  /// Metropolis and Hastings: for given energy and momentum, the density of v is exp((s_i + s_j) / k).
   bool accepted(Weighing const& weighing, double const* v, double const* gained, double keep, double kick, double after,
                 End const& i, End const& j, double moved, Stream& chance) const {
     double const u = chance.uniform();
@@ -266,7 +267,7 @@ void PairDissipation::Splitting::run(Edge& edge, Part const& part, PairNoise con
   run(edge, part, noise, metropolis, context);
 }
 
-/// Calls function(member, row) for all particles that friction acts on, each member's chunks side by side.
+/// Calls function(member, row) for all particles with friction, in parallel over each member's chunks.
 template <class Function>
 void PairDissipation::for_dissipating(Function const& function) {
   for (auto& member : members_) {

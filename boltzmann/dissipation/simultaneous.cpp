@@ -1,4 +1,4 @@
-// The simultaneous dissipation: all pairs at once, then every particle gets back as heat what its motion has lost.
+// The simultaneous dissipation: all pairs at once, then every particle regains as heat what its motion has lost.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/exact_sum.hpp>
 #include <boltzmann/core/threads.hpp>
@@ -11,7 +11,7 @@
 
 namespace boltzmann {
 
-/// Calls function(member, piece, sums) with the sums over all pairs of a piece's particles, side by side.
+/// Calls function(member, piece, sums) in parallel, with the sums over all pairs of a piece's particles.
 template <class Function>
 void PairDissipation::each_piece(StepContext const& context, double asymmetry, Function const& function) {
   int const ring = scheme_.neighbourhood().ring();
@@ -46,7 +46,7 @@ void PairDissipation::each_piece(StepContext const& context, double asymmetry, F
           task.first = piece.begin;
           task.rows = piece.rows();
           task.sums = sums.data();
-          // Each row gets from those before it first, in their order, as it does where the chunk is one piece.
+          // Each row first adds the contributions of earlier rows, in their order, as if the chunk were one piece.
           if (Border const& before = coupling->borders[n]; !before.row.empty()) {
             DissipationTask border = task;
             border.begin = before.begin;
@@ -66,14 +66,15 @@ void PairDissipation::each_piece(StepContext const& context, double asymmetry, F
   }
 }
 
-/// With dp_ij of all pairs from velocities u (those of now, or with the corrector the mean of now and of a try before)
-/// the motion gains sum over i of dP_i.(v_i + dP_i / 2m_i), dP_i = sum over j of dp_ij. It is paid by i and j as
+/// Let dp_ij follow from velocities u (the current ones, or with the corrector the mean of these and the previous
+/// iteration). The motion gains sum over i of dP_i.(v_i + dP_i / 2m_i), dP_i = sum over j of dp_ij. Particles i and j
+/// pay it by
 ///   eps_i -= sum over j of dp_ij.u_ij / 2 + dP_i.(dP_i - dP'_i) / 2m_i + |dp_ij|^2 (1/mj - 1/mi) / 4,
-/// dP' being that of the last try (without one, zero). The total is exact whatever the masses; the last term (not with
-/// the corrector) gives both the same share of what noise adds, as Eq 3 of the source asks.
+/// with dP' of the previous iteration (zero without one). The total is exact for any masses. The last term (not with
+/// the corrector) gives both the same part of the energy of noise, as in Eq 3 of the source.
 void PairDissipation::simultaneous(StepContext const& context) {
   take_lists();
-  // Where particles share the heat the remainder must be small, too: one pass more.
+  // If particles divide the heat, the remainder must be small, too: one more pass.
   bool const shares = std::any_of(members_.begin(), members_.end(), [](auto const& m) { return m->has_energy(); });
   int const tries = !corrector_ ? 0 : shares ? 2 : 1;
   for (int n = 0; n < tries; ++n) {
@@ -100,7 +101,7 @@ void PairDissipation::simultaneous(StepContext const& context) {
   heat_ += paid.value();
 }
 
-/// Those of other ranks' particles, which they have found.
+/// Velocities of other ranks' particles, from their owners.
 void PairDissipation::bring_mean_velocities(Member& m) {
   division()->team().meet(Team::Occasion::exchanges);
   auto const velocity = [&](std::uint32_t row) { return m.point(row) + m.velocity_at(); };
@@ -110,7 +111,7 @@ void PairDissipation::bring_mean_velocities(Member& m) {
       [&](std::uint32_t row, double const* from) { std::copy_n(from, D, velocity(row)); });
 }
 
-/// The points' velocities become the means of now and of the last try.
+/// Replaces the points' velocities by the means of the current ones and the previous iteration.
 void PairDissipation::Member::take_mean_velocities(int threads) {
   int const at = velocity_at();
   for_stretches(copy->followed(), threads, [&](Stretch const* rows, Stretch const* last) {
@@ -123,7 +124,7 @@ void PairDissipation::Member::take_mean_velocities(int threads) {
   });
 }
 
-/// So many numbers of points go to their images.
+/// Copies `count` numbers of points to their images.
 void PairDissipation::Member::show_images(int first, int count) {
   for (auto const& [begin, end] : copy->images())
     for (std::size_t k = owned() + 1 + begin; k < owned() + 1 + end; ++k)
@@ -136,7 +137,7 @@ void PairDissipation::Member::carry_along_flow() {
     if (k != copy->sentinel()) point(k)[flow] += copy->ahead_in_flow(k);
 }
 
-/// Gives momenta and energies to the particles of a piece; what no internal energy pays for the bath does.
+/// Adds momenta and energies to the particles of a piece; the bath pays if there is no internal energy.
 void PairDissipation::finish_piece(Member& m, Piece const& piece, double const* sums, ExactSum& by_bath) {
   bool const has_energy = m.has_energy();
   int const dimension = m.dimension();

@@ -18,7 +18,7 @@ void PairDissipation::Splitting::take_pairs(Neighbourhood const& neighbourhood,
     member->first_chunk = chunks;
     if (member->dissipates) chunks += member->chunks();
   }
-  // Every pair is found in the rows of one chunk: that of the lower row, or of the first ensemble.
+  // Every pair belongs to one chunk: that of the lower row, or of the first ensemble.
   std::vector<std::map<std::size_t, std::vector<Part>>> found(chunks);
   for (auto const& coupling : couplings) {
     Coupling const& c = *coupling;
@@ -46,7 +46,7 @@ void PairDissipation::Splitting::take_pairs(Neighbourhood const& neighbourhood,
   }
   edges.clear();
   colours.clear();
-  std::vector<std::vector<bool>> used(chunks);  // of each chunk: colours
+  std::vector<std::vector<bool>> used(chunks);  // colours of each chunk
   auto const uses = [&](std::size_t chunk, std::size_t colour) {
     return colour < used[chunk].size() && used[chunk][colour];
   };

@@ -1,4 +1,4 @@
-// Which pairs follow which in Shardlow's splitting. Private to this room.
+// The order of pairs in Shardlow's splitting. Private to this module.
 #pragma once
 
 #include <boltzmann/core/exact_sum.hpp>
@@ -10,8 +10,8 @@
 namespace boltzmann {
 
 /// Chunks of particles are nodes; all pairs between two chunks (or inside one) are an edge. Edges are coloured so that
-/// those of one colour have no chunk in common: they can be done at the same time, and whoever does them, the result is
-/// that of one after the other. Colours follow each other, and so do the pairs of an edge.
+/// those of one colour have no chunk in common and can run in parallel, with the result of a sequential order. Colours
+/// are processed in order, and so are the pairs of an edge.
 struct PairDissipation::Splitting {
   struct Part {  // the pairs of one coupling
     Coupling const* coupling;
@@ -20,15 +20,15 @@ struct PairDissipation::Splitting {
   struct Edge {
     std::size_t from, to;
     std::vector<Part> parts;
-    std::optional<ExactSum> heat = {};  // that a bath has given, and moves proposed and refused, in the last step
+    std::optional<ExactSum> heat = {};  // given by a bath; moves proposed and rejected in the last step
     std::uint64_t proposed = 0, refused = 0;
   };
 
   std::vector<Edge> edges;
-  std::vector<std::vector<std::size_t>> colours;  // numbers of edges
+  std::vector<std::vector<std::size_t>> colours;  // indices of edges
   std::size_t builds = ~std::size_t{0}, moves = 0;
 
-  /// Takes pairs anew if neighbour lists have changed.
+  /// Rebuilds the pairs if neighbour lists have changed.
   void take_pairs(Neighbourhood const& neighbourhood, std::vector<std::unique_ptr<Member>>& members,
                   std::vector<std::unique_ptr<Coupling>> const& couplings, int threads);
   /// Friction and noise of a part of an edge, pair after pair. PhysicsFailure if an internal energy would not be

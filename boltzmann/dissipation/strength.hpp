@@ -1,15 +1,16 @@
-// Strength: how strong friction and noise are between two particles, for one pair or for a pack of pairs.
+// Strength: the friction and noise between two particles, for one pair or for a pack of pairs.
 #pragma once
 
 #include <boltzmann/dissipation/dissipation_kernels.hpp>
 
 namespace boltzmann {
 
-/// Friction gamma_ij dt and noise sigma_ij sqrt(dt), without chi, and for friction that depends on the pair's temperature
-/// what its relative change with that asks (TypedFriction::At::change), times gamma_0 dt: Eq 4 of the source, put right (see Convention). With
-/// internal temperatures Ti, Tj and heat capacities Ci, Cj it is given 1/Ti + 1/Tj, their product 1/(Ti Tj), and the
-/// `curvatures` 1/(Ti^2 Ci) + 1/(Tj^2 Cj), which only constant_friction reads; 1/mi + 1/mj, and the square of the
-/// relative velocity in so many directions, which only the deterministic convention reads.
+/// Friction gamma_ij dt and noise sigma_ij sqrt(dt), without chi. If friction depends on the pair's temperature,
+/// `by_change` is the factor of its relative change (TypedFriction::At::change), times gamma_0 dt: Eq 4 of the source,
+/// corrected (see Convention). Ti, Tj are internal temperatures and Ci, Cj heat capacities. Arguments: 1/Ti + 1/Tj;
+/// their product 1/(Ti Tj); the `curvatures` 1/(Ti^2 Ci) + 1/(Tj^2 Cj), used only by constant_friction; 1/mi + 1/mj;
+/// the square of the relative velocity in this number of directions. The deterministic convention alone uses the last
+/// two.
 template <class Real>
 struct Strength {
   Real friction = 0.0, noise = 0.0, by_change = 0.0;
@@ -33,7 +34,7 @@ struct Strength {
         noise = n.amplitude;
         break;
       case Convention::deterministic: {
-        // The pair's kinetic temperature, so weighted that the exchange is in balance for Maxwell's velocities.
+        // The pair's kinetic temperature, weighted so that the exchange is in balance for Maxwell's velocities.
         Real const outside = square / (inverse_masses * (n.boltzmann_constant * (directions + 2)));
         Real const inside = 0.5 * inverse_temperatures / product;
         friction = (n.friction / n.temperature) * (outside - inside);

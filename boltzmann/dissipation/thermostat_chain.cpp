@@ -7,10 +7,10 @@
 namespace boltzmann {
 namespace {
 
-// H. Yoshida, Phys. Lett. A 150, 262 (1990), solution A of sixth order; the weight in the middle is what is left of 1.
+// H. Yoshida, Phys. Lett. A 150, 262 (1990), solution A of sixth order; the middle weight is 1 minus the others.
 constexpr double w1 = -1.17767998417887, w2 = 0.235573213359357, w3 = 0.784513610477560;
 constexpr std::array<double, 7> chain_weights{w3, w2, w1, 1 - 2 * (w1 + w2 + w3), w1, w2, w3};
-constexpr double short_chain_step = 0.25;  // in times of the chain
+constexpr double short_chain_step = 0.25;  // in units of the chain's time
 
 }  // namespace
 

@@ -1,4 +1,4 @@
-// Thermostat chain: the variables of Nose and Hoover with a chain, for whatever has a kinetic energy.
+// Thermostat chain: the variables of a Nose-Hoover chain, for any kinetic energy.
 #pragma once
 
 #include <cstddef>
@@ -15,8 +15,8 @@ struct ThermostatChain {
 
   /// Over a time, by the sixth-order weights of Suzuki and Yoshida. Returns the factor of velocities.
   double advance(double kinetic, double degrees, double kT, double rate, double time);
-  /// The sum of Qj uj^2 / 2, f k T times the integral of u1 and k T times those of the others: with K and what v feels
-  /// besides, it is conserved.
+  /// The sum of Qj uj^2 / 2, f k T times the integral of u1 and k T times those of the others. With K and the potential
+  /// energy of v's forces it is conserved.
   double energy(double degrees, double kT, double rate) const;
 };
 

@@ -1,4 +1,4 @@
-// From the texts of friction and weight to a program, and which values they may have.
+// Compiles the texts of friction and weight to a program, and checks sampled values.
 #include <boltzmann/dissipation/typed_friction.hpp>
 
 #include <boltzmann/formulas/evaluate.hpp>
@@ -67,7 +67,7 @@ void need(char const* part, double value, double in_range) {
     throw FormulaPartError(
         part, 0,
         fmt::format("the {} must be zero or more and finite from 0 to the range; at r = {:.3g} range it is {:.6g}",
-                    part, in_range, std::isnan(value) ? std::abs(value) : value));  // no sign of what is none
+                    part, in_range, std::isnan(value) ? std::abs(value) : value));  // NaN without its sign
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// One step of the kinetic energy, by a normal variable and a sum of squares of others.
+// One step of the kinetic energy, from a normal variable and a sum of squares of others.
 #include <boltzmann/core/random.hpp>
 #include <boltzmann/dissipation/velocity_rescaling.hpp>
 
@@ -7,8 +7,8 @@
 namespace boltzmann {
 namespace {
 
-/// Of the Gamma distribution of this shape, 1/2 or more, and scale 1 (G. Marsaglia and W. W. Tsang, ACM Trans. Math.
-/// Softw. 26, 363 (2000)).
+/// A variable with the Gamma distribution of this shape, 1/2 or more, and scale 1 (G. Marsaglia and W. W. Tsang, ACM
+/// Trans. Math. Softw. 26, 363 (2000)).
 double gamma_variable(double shape, Stream& stream) {
   if (shape < 1) return gamma_variable(shape + 1, stream) * std::pow(stream.uniform(), 1 / shape);
   double const d = shape - 1.0 / 3, c = 1 / std::sqrt(9 * d);
@@ -25,7 +25,7 @@ double VelocityRescaling::factor(double kinetic, double degrees, double kT, Step
   double const keep = std::exp(-rate() * context.dt), normal = stream.normal();
   double const others = degrees > 1 ? 2 * gamma_variable(0.5 * (degrees - 1), stream) : 0;  // squares of f - 1 normals
   double const each = 0.5 * kT / kinetic, root = std::sqrt(keep), noise = std::sqrt((1 - keep) * each);
-  // The velocities' component along themselves is sqrt(keep) of what it was, and noise; the others are noise.
+  // The component along the old velocities is sqrt(keep) of the old one, plus noise; the others are noise.
   double const along = root + noise * normal;
   double const square = along * along + noise * noise * others;
   return std::copysign(std::sqrt(square), along);

@@ -1,4 +1,4 @@
-// Checks of what exact solutions are asked for.
+// Checks of the arguments of exact solutions.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/exact/checks.hpp>
 

@@ -22,8 +22,8 @@ void check_orbit_state(OrbitState const& state, double mu) {
   if (norm2(state.position) == 0) throw Error(fmt::format("{}: the body is in the centre", name_of_kepler));
 }
 
-/// The root of an increasing function with its slope between two numbers: Newton's steps, halved intervals where these
-/// lead out.
+/// The root of an increasing function with its slope between two numbers: Newton's method, with bisection where a step
+/// leaves the bracket.
 template <class Function>
 double increasing_root(Function function, double low, double high) {
   double x = 0.5 * (low + high);
@@ -50,7 +50,7 @@ struct Universal {
 
 Universal universal(double s, double beta) {
   double const x = beta * s * s;
-  if (std::abs(x) < 0.1) {  // where sines less their arguments would cancel
+  if (std::abs(x) < 0.1) {  // where differences of sines and their arguments would cancel
     double c2 = 0, c3 = 0, t2 = 0.5, t3 = 1.0 / 6;
     for (int n = 2; n < 20; n += 2) {
       c2 += t2, c3 += t3;
@@ -84,7 +84,7 @@ OrbitState kepler(OrbitState const& start, double mu, double time) {
     return Value{distance * g.g1 + radial * g.g2 + mu * g.g3 - time, radius_at(g)};
   };
   double far = time / distance;
-  while (late(far).value < 0) far *= 2;  // not a number, where it overflows, is far enough
+  while (late(far).value < 0) far *= 2;  // NaN after an overflow counts as far enough
   auto const g = universal(increasing_root(late, 0, far), beta);
   double const radius = radius_at(g);
   return {start.position * (1 - mu * g.g2 / distance) + start.velocity * (distance * g.g1 + radial * g.g2),
@@ -98,7 +98,8 @@ OrbitElements orbit_elements(OrbitState const& state, double mu) {
   if (norm2(spin) == 0)
     throw Error(fmt::format("{}: a body that moves straight to the centre or from it has no elements", name_of_kepler));
   Vector<3> const normal = spin / magnitude(spin);
-  Vector<3> const towards = cross(state.velocity, spin) / mu - state.position / distance;  // Laplace, Runge, Lenz
+  Vector<3> const towards = cross(state.velocity, spin) / mu - state.position / distance;  // the Laplace-Runge-Lenz
+                                                                                           // vector
   double const e = magnitude(towards), beta = 2 * mu / distance - norm2(state.velocity);
   bool const flat = normal[0] == 0 && normal[1] == 0;
   Vector<3> const node =

@@ -1,4 +1,4 @@
-// The vortex of Lamb and Oseen.
+// The Lamb-Oseen vortex.
 #include <boltzmann/core/number.hpp>
 #include <boltzmann/exact/checks.hpp>
 #include <boltzmann/exact/lamb_oseen.hpp>

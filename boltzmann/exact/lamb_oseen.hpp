@@ -1,4 +1,4 @@
-// The vortex of Lamb and Oseen: a line of vorticity that viscosity spreads.
+// The Lamb-Oseen vortex: a line of vorticity that viscosity spreads.
 #pragma once
 
 namespace boltzmann::exact {

@@ -1,4 +1,4 @@
-// The plasma dispersion function, and the roots that plasmas have by it.
+// The plasma dispersion function, and the roots of plasmas.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/number.hpp>
 #include <boltzmann/exact/checks.hpp>
@@ -19,8 +19,8 @@ constexpr double sqrt_of_pi = 1.7724538509055160273;
 constexpr double near_the_axis = 1;  // |Im z| up to which Dawson's function gives Z
 constexpr double far_out = 8;        // |z| beyond which the asymptotic series is exact
 
-/// Dawson's function exp(-z^2) times the integral of exp(t^2) from 0 to z, near the real axis: the sum of
-/// exp(-(z - n h)^2) / n over odd n (G. B. Rybicki, Comput. Phys. 3, 85, 1989), off by exp(-(pi / 2h)^2).
+/// Dawson's function exp(-z^2) times the integral of exp(t^2) from 0 to z, near the real axis: the sum of exp(-(z - n
+/// h)^2) / n over odd n (G. B. Rybicki, Comput. Phys. 3, 85, 1989), with the error exp(-(pi / 2h)^2).
 Complex dawson(Complex z) {
   constexpr double h = 0.2, reach = 8;
   double const middle = 2 * std::round((z.real() / h - 1) / 2) + 1;
@@ -53,14 +53,14 @@ Complex upper_dispersion(Complex z) {
   return i * sqrt_of_pi * w;
 }
 
-/// i sqrt(pi) exp(-z^2), as often as it stands beside what falls as 1/z: not at all in the upper half plane, once on
-/// the axis, twice in the lower one.
+/// i sqrt(pi) exp(-z^2), with its multiplicity beside the asymptotic series: 0 in the upper half plane, 1 on the axis,
+/// 2 in the lower one.
 Complex exponential_part(Complex z) {
   if (z.imag() > near_the_axis) return 0;
   return (z.imag() < -near_the_axis ? 2.0 : 1.0) * Complex(0, sqrt_of_pi) * std::exp(-z * z);
 }
 
-/// 1 + z Z(z) = -Z'(z)/2. Far out it is small, and Z by itself would not tell it.
+/// 1 + z Z(z) = -Z'(z)/2. Far out it is small, and computing it from Z would cancel.
 Complex response(Complex z) {
   if (std::abs(z) < far_out) return 1.0 + z * plasma_dispersion(z);
   Complex const small = 0.5 / (z * z);
@@ -121,7 +121,7 @@ Complex dielectric(std::vector<PlasmaStream> const& streams, double wave_number,
 Complex plasma_root(std::vector<PlasmaStream> const& streams, double wave_number, Complex guess) {
   check_streams(streams, wave_number);
   Complex omega = guess;
-  int polished = 0;  // damping may be far smaller than the frequency: it needs steps after this has settled
+  int polished = 0;  // damping may be far smaller than the frequency, and needs steps after the frequency has converged
   for (int iteration = 0; iteration < 100; ++iteration) {
     auto const [value, slope] = dielectric_and_slope(streams, wave_number, omega);
     Complex const step = value / slope;
@@ -142,7 +142,7 @@ PlasmaWave langmuir(double plasma_frequency, double thermal_velocity, double wav
   if (!(wanted >= 1e-3 && wanted <= 30))
     throw Error(fmt::format(
         "Langmuir wave: the wave number times the Debye length must be from 0.001 to 30, it is {:.6g}", wanted));
-  // From a long wave, whose root is near that of Bohm and Gross, to the one that is asked for.
+  // Follows the root from a long wave, where it is near that of Bohm and Gross, to the wanted one.
   double k = std::min(wanted, 0.2);
   Complex omega = plasma_root({{1, 1, 0}}, k, bohm_gross(1, 1, k)), before = omega;
   while (k < wanted) {
@@ -168,12 +168,12 @@ double two_stream_growth(double plasma_frequency, double drift, double thermal_v
   check_not_negative("two streams", "thermal velocity", thermal_velocity);
   check_positive("two streams", "wave number", wave_number);
   if (thermal_velocity == 0) {
-    // gamma^2, written so that nothing cancels.
+    // gamma^2, in a form without cancellation.
     double const a = wave_number * drift / plasma_frequency, root = std::sqrt(1 + 8 * a * a);
     double const square = 8 * a * a * (1 - a) * (1 + a) / ((1 + root) * (3 + root));
     return square > 0 ? plasma_frequency * std::sqrt(square) : 0;
   }
-  // On the imaginary axis the function of two opposite streams is real, and 1 far up: where it is negative at the
+  // On the imaginary axis the function of two opposite streams is real, and 1 at infinity: if it is negative at the
   // origin, there is a zero between.
   double const half = plasma_frequency / std::numbers::sqrt2;
   std::vector<PlasmaStream> const streams{{half, thermal_velocity, drift}, {half, thermal_velocity, -drift}};

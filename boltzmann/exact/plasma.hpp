@@ -23,8 +23,8 @@ struct PlasmaStream {
 double plasma_frequency(double number_density, double charge, double mass, double coulomb_constant);
 
 /// The dielectric function for waves exp(i k x - i omega t) among these streams: 1 + sum (wp / (k v))^2 (1 + zeta
-/// Z(zeta)) with zeta = (omega - k drift) / (sqrt(2) k v); ions are at rest. Its zeros are the waves that the plasma
-/// has. Errors: a wave number or a thermal velocity that is not positive.
+/// Z(zeta)) with zeta = (omega - k drift) / (sqrt(2) k v); ions are at rest. Its zeros are the waves of the plasma.
+/// Errors: a wave number or a thermal velocity that is not positive.
 std::complex<double> dielectric(std::vector<PlasmaStream> const& streams, double wave_number,
                                 std::complex<double> omega);
 
@@ -33,7 +33,7 @@ std::complex<double> dielectric(std::vector<PlasmaStream> const& streams, double
 std::complex<double> plasma_root(std::vector<PlasmaStream> const& streams, double wave_number,
                                  std::complex<double> guess);
 
-/// A wave whose field goes as exp(growth t) cos(frequency t): damped where the growth is negative.
+/// A wave whose field is proportional to exp(growth t) cos(frequency t): damped if the growth is negative.
 struct PlasmaWave {
   double frequency, growth;
 };
@@ -49,7 +49,7 @@ PlasmaWave langmuir(double plasma_frequency, double thermal_velocity, double wav
 /// velocity or a wave number that is negative.
 double bohm_gross(double plasma_frequency, double thermal_velocity, double wave_number);
 
-/// How fast a wave grows in two equal streams with the velocities +-drift, which have half of wp^2 each; 0 where the
+/// The growth rate of a wave in two equal streams with the velocities +-drift, which have half of wp^2 each; 0 if the
 /// streams are stable. Cold ones (thermal velocity 0): with a = k drift, gamma^2 = (wp/2) sqrt(wp^2 + 8 a^2) - a^2 -
 /// wp^2/2, stable from a = wp on, fastest at a = sqrt(3/8) wp, with wp/sqrt(8) (C. K. Birdsall, A. B. Langdon, *Plasma
 /// Physics via Computer Simulation*, section 5.6). Warm ones: the zero of the dielectric function on the imaginary

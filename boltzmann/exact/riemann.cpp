@@ -1,4 +1,4 @@
-// The Riemann problem of an ideal gas; equations by their numbers in Toro's book.
+// The Riemann problem of an ideal gas; equation numbers are those of Toro's book.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/exact/checks.hpp>
 #include <boltzmann/exact/riemann.hpp>
@@ -46,7 +46,7 @@ Riemann::Riemann(GasState const& left, GasState const& right, double gamma)
                                            sound(right) * std::pow(lower / right.pressure, power)),
                                       1 / power);
   } else {
-    // The function is concave: from below, Newton's iteration climbs to the root and never passes it.
+    // The function is concave: from below, Newton's iteration approaches the root monotonically.
     star_pressure_ = lower;
     for (int iteration = 0; iteration < 200; ++iteration) {
       auto const [value, slope] = velocity_lost(star_pressure_);
@@ -82,7 +82,7 @@ double Riemann::mass_flux(GasState const& s) const {
   return std::sqrt(s.density * ((gamma_ + 1) * star_pressure_ + (gamma_ - 1) * s.pressure) / 2);
 }
 
-/// How much velocity a wave from a state to a pressure takes away, and its derivative by the pressure: (4.6), (4.7).
+/// The velocity change by a wave from a state to a pressure, and its derivative by the pressure: (4.6), (4.7).
 Riemann::Jump Riemann::jump(GasState const& s, double pressure) const {
   if (pressure > s.pressure) {
     double const a = 2 / ((gamma_ + 1) * s.density), b = (gamma_ - 1) / (gamma_ + 1) * s.pressure;

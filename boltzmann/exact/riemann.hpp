@@ -10,11 +10,11 @@ namespace boltzmann::exact {
 class Riemann {
  public:
   /// `gamma` is the ratio of specific heats. Errors: a density or pressure that is not positive, a velocity that is not
-  /// finite, gamma <= 1, and states that part so fast that a vacuum opens between them.
+  /// finite, gamma <= 1, and states that separate so fast that a vacuum opens between them.
   Riemann(GasState const& left, GasState const& right, double gamma);
 
   /// The state at x and t. The solution depends on x / t alone: at(speed, 1) is the state at x / t = speed. At t = 0,
-  /// and at the contact, it is that on the left of the jump. Error: a negative or infinite time.
+  /// and at the contact, it is the state to the left of the jump. Error: a negative or infinite time.
   GasState at(double x, double time) const;
 
   /// Pressure and velocity on both sides of the contact.
@@ -23,7 +23,7 @@ class Riemann {
   /// Densities on the left and on the right of the contact.
   double left_density() const { return star_density(left_); }
   double right_density() const { return star_density(right_); }
-  /// The velocity of the shock that runs to the right. NaN if a rarefaction does.
+  /// The velocity of the shock that moves to the right. NaN if that wave is a rarefaction.
   double shock_speed() const;
 
  private:

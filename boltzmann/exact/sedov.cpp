@@ -11,8 +11,8 @@
 #include <cmath>
 
 // With x = r/R, W = u/(x R'), s = ln x, L = ln(density), mass and momentum along the flow and R R'' = -(D/2) R'^2 give
-// dW/ds and dL/ds. The energy within a surface that moves with the shock's x stays, W (rho u^2/2 + gamma p/(gamma - 1))
-// = rho u^2/2 + p/(gamma - 1), which gives the pressure, so that both slopes are functions of W alone. W falls from
+// dW/ds and dL/ds. The energy within a surface that moves at constant x is conserved, W (rho u^2/2 + gamma p/(gamma -
+// 1)) = rho u^2/2 + p/(gamma - 1). This gives the pressure, so that both slopes are functions of W alone. W falls from
 // 2/(gamma + 1) at the shock to 1/gamma in the middle; with y = ln(gamma W - 1) both s and L become straight there.
 namespace boltzmann::exact {
 namespace {
@@ -38,7 +38,7 @@ SedovBlast::SedovBlast(int dimension, double gamma) : dimension_(dimension), gam
     throw Error(fmt::format("{}: in 3D gamma must be below 7, beyond which the middle is empty; it is {}",
                             name_of_blast, gamma));
   double const n = dimension, surface = dimension == 1 ? 2 : dimension == 2 ? 2 * pi : 4 * pi;
-  using Sums = std::array<double, 4>;  // place, density, and the kinetic and the thermal energy further out
+  using Sums = std::array<double, 4>;  // position, density, and the kinetic and the thermal energy further out
   auto const slopes = [&](double y, Sums const& at) {
     Knot const here = knot(y, at[0], at[1]);
     double const w = (1 + std::exp(y)) / gamma, volume = std::exp(n * at[0]) * here.place_slope;
@@ -61,7 +61,7 @@ SedovBlast::SedovBlast(int dimension, double gamma) : dimension_(dimension), gam
                c = slopes(y + h / 2, moved(sums, b, h / 2)), d = slopes(y + h, moved(sums, c, h));
     for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += h / 6 * (a[i] + 2 * b[i] + 2 * c[i] + d[i]);
   }
-  Knot const& last = knots_.back();  // further in the pressure is the same everywhere
+  Knot const& last = knots_.back();  // further in the pressure is constant
   double const core = pressure(last.y, last.place, last.density) / (gamma - 1) * std::exp(n * last.place) / n;
   double const energy = sums[2] + sums[3] + core;
   kinetic_share_ = sums[2] / energy;

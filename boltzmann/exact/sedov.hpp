@@ -7,8 +7,8 @@
 
 namespace boltzmann::exact {
 
-/// The flow at r = part * R, with R the radius of the shock and R' its speed: velocity / R', density / that before the
-/// shock, pressure / (that density R'^2).
+/// The flow at r = part * R, with R the radius of the shock and R' its speed: velocity / R', density / density before
+/// the shock, pressure / (that density R'^2).
 struct BlastPoint {
   double part, velocity, density, pressure;
 };
@@ -19,7 +19,7 @@ struct BlastPoint {
 class SedovBlast {
  public:
   /// `gamma` is the ratio of specific heats. Errors: a dimension that is not 1, 2 or 3; gamma <= 1; in 3D gamma >= 7,
-  /// for then the middle is empty.
+  /// where the middle would be empty.
   SedovBlast(int dimension, double gamma);
 
   double xi() const { return xi_; }
@@ -32,14 +32,14 @@ class SedovBlast {
   /// speed also 0).
   double radius(double energy, double density, double time) const;
   double shock_speed(double energy, double density, double time) const;
-  /// The gas at a distance from the middle; beyond the shock it is at rest, and its pressure 0. Errors: as above, a
-  /// time that is not positive, and a negative distance.
+  /// The gas at a distance from the middle; beyond the shock it is at rest, with pressure 0. Errors: as above, a time
+  /// that is not positive, and a negative distance.
   GasState state(double distance, double time, double energy, double density) const;
-  /// The same in units of the shock, at a part of its radius. Error: a negative part.
+  /// The same in units of the shock, at a fraction of its radius. Error: a negative fraction.
   BlastPoint at(double part) const;
 
  private:
-  /// On the way from the shock inwards, by y = ln(gamma u/(x R') - 1): ln x, ln of the density, and their slopes by y.
+  /// From the shock inwards, by y = ln(gamma u/(x R') - 1): ln x, ln of the density, and their slopes by y.
   struct Knot {
     double y, place, density, place_slope, density_slope;
   };

@@ -1,4 +1,4 @@
-// Taylor and Green's vortices in the plane.
+// The Taylor-Green vortices in the plane.
 #include <boltzmann/exact/checks.hpp>
 #include <boltzmann/exact/taylor_green.hpp>
 

@@ -1,4 +1,4 @@
-// Taylor and Green's vortices in the plane: a flow that decays and keeps its form.
+// The Taylor-Green vortices in the plane: a flow that decays and keeps its form.
 #pragma once
 
 #include <boltzmann/core/vector.hpp>

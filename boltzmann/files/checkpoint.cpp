@@ -118,7 +118,7 @@ void write_contents(File& file, Checkpoint const& checkpoint) {
   file.close();
 }
 
-// What must be true before HDF5 may look at the file.
+// Checks the label and the checksum before HDF5 reads the file.
 void check_label(std::string const& path) {
   need_regular_file(path);
   Descriptor const file(path, O_RDONLY);
@@ -142,7 +142,7 @@ void check_label(std::string const& path) {
     throw Error(path + ": is damaged (its checksum is wrong)");
 }
 
-/// What to do about a checkpoint that can't be read; empty if the one before it can't either.
+/// Advice after an unreadable checkpoint; empty if the previous one can't be read either.
 std::string previous_left(std::string const& path) {
   std::string const previous = path + ".previous";
   try {
@@ -155,7 +155,8 @@ std::string previous_left(std::string const& path) {
 
 void keep(std::string const& path, std::string const& previous) {
   ::unlink(previous.c_str());
-  // A second name first, so that `path` is there all the time; a file system without links gets a moment with none.
+  // Make a second link first, so that `path` exists all the time. On a file system without links it is missing for a
+  // moment.
   if (::link(path.c_str(), previous.c_str()) != 0 && errno != ENOENT) std::rename(path.c_str(), previous.c_str());
 }
 

@@ -1,4 +1,4 @@
-// CRC-64 by eight tables: eight bytes at a time.
+// CRC-64 with eight tables: eight bytes at a time.
 #include <boltzmann/files/checksum.hpp>
 
 #include <array>
@@ -8,7 +8,7 @@ namespace {
 
 using Tables = std::array<std::array<std::uint64_t, 256>, 8>;
 
-// tables[k][b]: what the byte b leaves behind when k zero bytes follow it.
+// tables[k][b]: the CRC of byte b followed by k zero bytes.
 constexpr Tables make_tables() {
   constexpr std::uint64_t polynomial = 0xC96C5795D7870F42;  // ECMA-182, reflected
   Tables tables{};

@@ -30,8 +30,8 @@ std::string header_row(std::vector<std::string> const& header) {
   return row + '\n';
 }
 
-// Reads a row that begins at `at` and moves `at` behind it. Nothing, and `at` unchanged, if the text ends within a
-// quotation.
+// Reads a row that begins at `at` and moves `at` to the next one. If the text ends within a quotation, returns nothing
+// and leaves `at` unchanged.
 std::optional<std::vector<std::string>> next_row(std::string_view text, std::size_t& at) {
   std::vector<std::string> words(1);
   bool inside = false;
@@ -60,7 +60,7 @@ std::optional<std::vector<std::string>> next_row(std::string_view text, std::siz
   return words;
 }
 
-/// A cell; an empty one for NaN, a number that can't be had.
+/// Appends a cell; it is empty for NaN, a number that does not exist.
 void append_cell(std::string& row, double value) {
   if (!std::isnan(value)) append_number(row, value);
 }
@@ -144,7 +144,7 @@ void write_csv(std::string const& path, CsvTable const& table) {
       if (table.columns.size() > 1)
         append_cell(text, table.columns[c][r]);
       else
-        append_number(text, table.columns[c][r]);  // an empty line would be no row
+        append_number(text, table.columns[c][r]);  // otherwise the row would be an empty line, which readers skip
       text += c + 1 < table.columns.size() ? ',' : '\n';
     }
   write_whole(path, text);

@@ -1,4 +1,4 @@
-// The one place that waits for a disk.
+// All waiting for disks happens here.
 #include <boltzmann/files/disk_sync.hpp>
 
 #include <fcntl.h>

@@ -1,4 +1,4 @@
-// Bringing files to the disk, each at once or those of many short runs together.
+// Syncs files to the disk, each immediately, or those of many short runs together.
 #pragma once
 
 #include <boltzmann/core/clock.hpp>
@@ -7,12 +7,13 @@
 
 namespace boltzmann {
 
-/// fsync(), or fdatasync() if `data_only`, of an open file; 0, or -1 with errno. A DelayedSync of this thread may put it
-/// off. `ordered`: what is written next relies on it, so that only a DelayedSync of files that do not last puts it off.
+/// Calls fsync(), or fdatasync() if `data_only`, for an open file. Returns 0, or -1 with errno. A DelayedSync of this
+/// thread may postpone it. `ordered`: later writes rely on it, so only a DelayedSync with `lasting` = false postpones
+/// it.
 int sync_file(int descriptor, bool data_only, bool ordered = false);
 
-/// While it lives, files that this thread writes wait for flush(): a disk takes 10 ms for each of them, and hardly longer
-/// for all together. If `lasting` is false, they are never brought to the disk by us. One at a time in a thread.
+/// While this object exists, syncs of this thread are postponed until flush(): a disk needs 10 ms per file, and hardly
+/// longer for all files together. If `lasting` is false, files are never synced. One object per thread at a time.
 class DelayedSync {
  public:
   explicit DelayedSync(bool lasting);
@@ -20,9 +21,9 @@ class DelayedSync {
   DelayedSync(DelayedSync const&) = delete;
   DelayedSync& operator=(DelayedSync const&) = delete;
 
-  /// True before the first flush(), and once a second has passed since the last one, or ten times as long as that took.
+  /// True before the first flush(), and when the time since the last one exceeds a second or ten times its duration.
   bool due() const;
-  /// Brings all files of the file system of this folder to the disk, if some wait.
+  /// Syncs the file system of this folder if files are pending.
   void flush(std::string const& folder);
 
  private:

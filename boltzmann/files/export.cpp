@@ -22,7 +22,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "the raw data of VTK files say LittleEndian");
 
-// Names without blanks, which separate columns.
+// Removes blanks, which separate columns, from a name.
 std::string word(std::string text) {
   for (char& c : text)
     if (c == ' ' || c == '\t' || c == '\n' || c == '\r' || c == ':' || c == '"' || c == '=') c = '_';
@@ -50,11 +50,11 @@ std::string xml(std::string const& text) {
   return result;
 }
 
-/// What stands behind the XML of a VTK file: every array is its length in bytes as a 64-bit number, then the numbers.
+/// The data after the XML of a VTK file. Each array is its length in bytes as a 64-bit number, followed by its numbers.
 struct AppendedData {
   std::string data;
 
-  /// Begins an array and returns its offset.
+  /// Starts an array and returns its offset.
   std::size_t begin_array(std::size_t bytes) {
     std::size_t const offset = data.size();
     put(static_cast<std::uint64_t>(bytes));
@@ -78,7 +78,7 @@ std::string array_tag(char const* type, std::string const& name, int components,
                    xml(unit));
 }
 
-/// Everything before the pieces of a data set of this kind, which has these attributes.
+/// The XML before the pieces of a data set of this kind with these attributes.
 std::string vtk_head(char const* kind, std::string const& attributes, double time) {
   std::string now;
   append_number(now, time);
@@ -122,7 +122,7 @@ std::string lattice(BoxEdges const& box) {
 
 int columns_of(ExportField const& field, int dimension) { return is_spatial(field, dimension) ? 3 : field.components; }
 
-// The fields of `wanted`, in that order, as these particles have them.
+// The fields of `wanted`, in that order, as pointers to the fields of these particles.
 std::vector<ExportField const*> own_fields(ExportParticles const& particles, std::vector<ExportField> const& wanted) {
   std::vector<ExportField const*> own;
   for (auto const& field : wanted)
@@ -145,7 +145,7 @@ std::string xyz(ExportFrame const& frame, bool complete) {
   std::vector<ExportField> const fields = common_fields(frame.particles);
   int const dimension = frame.particles.empty() ? 3 : frame.particles.front().dimension;
   std::string text = fmt::format("{}\n{}Properties=species:S:1", count_of(frame), lattice(frame.box));
-  // The identifier stands behind the position, for readers that know name x y z and no more.
+  // The identifier follows the position, for readers that only know name x y z.
   auto const with_id = [&](ExportField const& field) { return complete && field.name == "position"; };
   for (auto const& field : fields)
     text +=
@@ -182,7 +182,7 @@ std::string xyz(ExportFrame const& frame, bool complete) {
   return text;
 }
 
-// How LAMMPS calls the columns of a field.
+// The names of the columns of a field in LAMMPS.
 std::vector<std::string> dump_columns(ExportField const& field, int dimension) {
   if (field.name == "position") return {"x", "y", "z"};
   if (field.name == "velocity" && is_spatial(field, dimension)) return {"vx", "vy", "vz"};

@@ -1,4 +1,4 @@
-// LAMMPS data, PDB, GRO and POSCAR as texts.
+// LAMMPS data, PDB, GRO and POSCAR files as texts.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/files/export_atoms.hpp>
 #include <boltzmann/files/text_file.hpp>
@@ -30,7 +30,7 @@ void append_vector(std::string& text, ExportField const& field, std::size_t i) {
   }
 }
 
-/// The one mass of all particles of an ensemble. Error if they differ.
+/// The common mass of all particles of an ensemble. Throws Error if they differ.
 double mass_of(ExportParticles const& particles) {
   ExportField const& mass = *field_of(particles, "mass");
   double const first = particles.size > 0 ? value_of(mass, 0, 0) : 1;
@@ -41,7 +41,7 @@ double mass_of(ExportParticles const& particles) {
   return first;
 }
 
-/// A number in so many letters. Error if it takes more.
+/// Formats a number with this width. Throws Error if it does not fit.
 std::string fixed(double number, int width, int digits, char const* format) {
   std::string const text = fmt::format("{:{}.{}f}", number, width, digits);
   if (text.size() > static_cast<std::size_t>(width))
@@ -60,12 +60,12 @@ std::string element_of(std::string const& species) {
   return upper;
 }
 
-/// A name of an atom in its four columns: symbols of one letter begin in the second.
+/// A name of an atom in its four columns; one-letter symbols begin in the second.
 std::string atom_name(std::string const& species, std::string const& element) {
   return fmt::format("{:<4}", letters(element.size() == 1 ? " " + species : species, 4));
 }
 
-constexpr std::size_t most_numbers = 100'000;  // of five letters, which begin again at 0
+constexpr std::size_t most_numbers = 100'000;  // the field has five digits; numbers start again at 0
 
 }  // namespace
 
@@ -93,14 +93,14 @@ FiniteEdges finite_edges(ExportFrame const& frame) {
     edges.moved_high[a] = !std::isfinite(high) || (!frame.box.periodic[axis] && any && last > high);
     edges.low[a] = edges.moved_low[a] ? first : low;
     edges.high[a] = edges.moved_high[a] ? last : high;
-    if (edges.low[a] > edges.high[a]) edges.low[a] = edges.high[a];  // no particle, and one edge is infinite
+    if (edges.low[a] > edges.high[a]) edges.low[a] = edges.high[a];  // no particles, and one edge is infinite
   }
   return edges;
 }
 
 namespace {
 
-/// With room beyond the outermost particles: LAMMPS' read_data wants them below an upper edge, not on it.
+/// Adds a margin beyond the outermost particles: LAMMPS' read_data requires them below an upper edge, not on it.
 FiniteEdges edges_for_lammps(ExportFrame const& frame) {
   auto edges = finite_edges(frame);
   for (int axis = 0; axis < frame.box.dimension; ++axis) {
@@ -130,7 +130,7 @@ std::string lammps_data_text(ExportFrame const& frame) {
                   style.empty() ? "" : ", units = ", style, number_of(frame), frame.particles.size());
   auto const edges = edges_for_lammps(frame);
   for (std::size_t a = 0; a < 3; ++a) {
-    bool const thin = !(edges.low[a] < edges.high[a]);  // LAMMPS wants a box with a volume
+    bool const thin = !(edges.low[a] < edges.high[a]);  // LAMMPS requires a box with a volume
     append_number(text, edges.low[a] - (thin ? 0.5 : 0));
     text += ' ';
     append_number(text, edges.high[a] + (thin ? 0.5 : 0));

@@ -1,4 +1,4 @@
-// The folder itself is locked (flock), so nothing is left in it: not even after kill -9.
+// The lock is on the folder itself (flock), so no lock file remains, even after kill -9.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/team.hpp>
 #include <boltzmann/files/folder_lock.hpp>
@@ -21,7 +21,7 @@ using Identity = std::pair<dev_t, ino_t>;
 
 std::mutex mutex;
 std::map<Identity, std::weak_ptr<void const>> held;
-std::set<Identity> with_window;  // folders that this process shows in a window
+std::set<Identity> with_window;  // folders of runs that this process shows in a window
 
 }  // namespace
 
@@ -33,7 +33,7 @@ void own_window_file(std::string const& folder) {
 }
 
 FolderLock lock_folder(std::string const& folder) {
-  if (!team().first()) return {};  // which writes nothing
+  if (!team().first()) return {};  // other ranks write nothing
   int const opened = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (opened < 0) return {};
   std::shared_ptr<int const> const descriptor(new int(opened), [](int const* number) {

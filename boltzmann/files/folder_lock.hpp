@@ -1,4 +1,4 @@
-// One writer for a folder of results.
+// Ensures that only one process writes into a folder of results.
 #pragma once
 
 #include <memory>
@@ -6,15 +6,15 @@
 
 namespace boltzmann {
 
-/// Held by whoever writes into a folder; given up when the last copy goes away, or the process ends in any way.
+/// Held by each writer of a folder. The lock is released when the last copy is destroyed or the process ends.
 using FolderLock = std::shared_ptr<void const>;
 
-/// Says that this process has a window on the run in the folder, so that window.txt there is its own.
+/// Declares that this process shows the run of the folder in a window, so that it owns window.txt there.
 void own_window_file(std::string const& folder);
 
-/// Locks a folder that exists; this process may hold it already. Error if another process holds it, before anything in
-/// it has changed. Empty where the file system knows no
-/// locks, and on ranks above 0. The first lock removes a window.txt that a killed process has left.
+/// Locks an existing folder; this process may hold it already. Throws Error if another process holds it, before any
+/// change. Returns an empty lock on file systems without locks, and on ranks above 0. The first lock removes a
+/// window.txt left by a killed process.
 FolderLock lock_folder(std::string const& folder);
 
 }  // namespace boltzmann

@@ -1,4 +1,4 @@
-// Writers of the formats that are texts, tables and VTK's: frame after frame into a file that is there when it is whole.
+// Writers of text, table and VTK formats. Frames go to a temporary file, which is renamed when it is complete.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/files/csv.hpp>
 #include <boltzmann/files/frame_writers.hpp>
@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A text with all frames.
+/// Writes all frames into one text file.
 class TextWriter final : public FrameWriter {
  public:
   TextWriter(std::string path, std::string (*text)(ExportFrame const&)) : file_(std::move(path)), text_(text) {}
@@ -36,7 +36,7 @@ std::vector<std::string> component_names(ExportField const& field, int dimension
   return names;
 }
 
-/// A row for each particle and frame, with the fields of all ensembles.
+/// Writes a row per particle and frame, with the fields of all ensembles.
 class CsvWriter final : public FrameWriter {
  public:
   explicit CsvWriter(std::string path) : file_(std::move(path)) {}
@@ -45,7 +45,7 @@ class CsvWriter final : public FrameWriter {
     std::string text;
     if (columns_.empty()) text = header(frame);
     for (auto const& particles : frame.particles) {
-      // Where each column is in these particles.
+      // Maps each column to the field of these particles.
       std::vector<ExportField const*> fields(columns_.size(), nullptr);
       for (std::size_t c = 0; c < columns_.size(); ++c)
         for (auto const& field : particles.fields)
@@ -115,7 +115,7 @@ class VtpWriter final : public FrameWriter {
   std::string path_;
 };
 
-/// copper.pvd and copper/ions-000000100.vtp, ...
+/// Writes copper.pvd and copper/ions-000000100.vtp, ...
 class PvdWriter final : public FrameWriter {
  public:
   explicit PvdWriter(std::string const& path)
@@ -152,7 +152,7 @@ class PvdWriter final : public FrameWriter {
     index_.write("</Collection>\n</VTKFile>\n");
     std::error_code error;
     fs::create_directory(folder_, error);
-    // Frames of an earlier export go; what else somebody keeps there stays.
+    // Remove frames of an earlier export; other files in the folder stay.
     for (auto const& entry : fs::directory_iterator(folder_, error))
       if (is_frame(entry.path().filename().string())) fs::remove(entry.path(), error);
     for (auto const& name : names_) {

@@ -1,4 +1,4 @@
-// Frame writers: what each format of export does with frames. Private to this room.
+// Frame writers: one class for each kind of export format. Private to this module.
 #pragma once
 
 #include <boltzmann/files/export.hpp>
@@ -18,15 +18,15 @@ class FrameWriter {
   virtual void finish() = 0;
 };
 
-/// A text with all frames.
+/// All frames in one text file.
 std::unique_ptr<FrameWriter> text_writer(std::string const& path, std::string (*text)(ExportFrame const&));
-/// A row for each particle and frame, with the fields of all ensembles.
+/// A row per particle and frame, with the fields of all ensembles.
 std::unique_ptr<FrameWriter> csv_writer(std::string const& path);
 /// A frame of one ensemble.
 std::unique_ptr<FrameWriter> vtp_writer(std::string const& path);
 /// copper.pvd and copper/ions-000000100.vtp, ...
 std::unique_ptr<FrameWriter> pvd_writer(std::string const& path);
-/// H5MD with one group of all particles, as MDAnalysis opens it.
+/// H5MD with one group of all particles, in a form that MDAnalysis opens.
 std::unique_ptr<FrameWriter> h5md_writer(std::string const& path);
 
 }  // namespace boltzmann

@@ -1,5 +1,6 @@
-// Exported H5MD: all ensembles are one group, "trajectory", with units by the names that MDAnalysis knows, so that its
-// Universe opens the file as it is. Their particles stand one behind the other; `species` says of which ensemble each is.
+// Exported H5MD. All ensembles are one group, "trajectory", with units in the names of MDAnalysis, so that its Universe
+// opens the file directly. The particles of the ensembles are concatenated; `species` is the index of the ensemble of
+// each.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/files/export_atoms.hpp>
 #include <boltzmann/files/frame_writers.hpp>
@@ -22,7 +23,7 @@ using hdf5::Dataset;
 using hdf5::File;
 using hdf5::Number;
 
-// Without units MDAnalysis opens nothing: pure numbers stand as they are, under these names.
+// MDAnalysis opens no file without units. Pure numbers are written unchanged, under these names.
 constexpr char const *length_label = "Angstrom", *time_label = "ps", *velocity_label = "Angstrom ps-1";
 
 std::string const group = "/particles/trajectory";
@@ -104,7 +105,7 @@ class H5mdWriter final : public FrameWriter {
         write_constant(frame, name);
   }
 
-  /// From each frame to the next, as an observable `dt`: there MDAnalysis looks for it.
+  /// The time between successive frames, as an observable `dt`, where MDAnalysis expects it.
   void write_intervals() {
     if (frames_ < 2) return;
     std::vector<double> intervals;
@@ -146,7 +147,7 @@ class H5mdWriter final : public FrameWriter {
     link_times("box/edges");
   }
 
-  /// Of each particle its number and that of its ensemble, whose names stand beside them.
+  /// The number of each particle and of its ensemble, and the names of the ensembles.
   void write_kinds(ExportFrame const& frame) {
     std::vector<std::int64_t> species, ids;
     std::vector<std::string> names;

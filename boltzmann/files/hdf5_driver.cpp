@@ -1,4 +1,4 @@
-// The HDF5 file driver's calls.
+// The callbacks of the HDF5 file driver.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/files/hdf5_driver.hpp>
 #include <boltzmann/files/text_file.hpp>
@@ -18,7 +18,7 @@
 namespace boltzmann::hdf5 {
 namespace {
 
-// The superblock of version 3: where its fields stand.
+// The superblock of version 3: offsets of its fields.
 constexpr unsigned char signature[] = {0x89, 'H', 'D', 'F', '\r', '\n', 0x1a, '\n'};
 constexpr std::size_t superblock_size = 48, version_at = 8, flags_at = 11, end_at = 28, checksum_at = 44;
 
@@ -27,9 +27,9 @@ struct Info {
 };
 
 struct OpenFile {
-  H5FD_t base;  // HDF5's part, first
+  H5FD_t base;  // the part of HDF5; must come first
   Disk* disk;
-  haddr_t end;  // the end of the addresses that HDF5 has given out
+  haddr_t end;  // the end of the address space that HDF5 has allocated
 };
 
 OpenFile* of(H5FD_t* file) { return reinterpret_cast<OpenFile*>(file); }
@@ -74,7 +74,7 @@ void set_size(Disk& disk, std::uint64_t size) {
     disk.size = size;
 }
 
-// Makes the superblock in the file tell the end, without the flag of a file in use.
+// Writes the end of the file into the superblock, without the flag of a file in use.
 void tell_end(Disk& disk, std::uint64_t end) {
   put(end, 8, disk.superblock.data() + end_at);
   disk.superblock[flags_at] = 0;
@@ -115,7 +115,7 @@ herr_t query(H5FD_t const*, unsigned long* flags) {
   return 0;
 }
 
-// The size, as it is now.
+// The current size.
 std::uint64_t size_of(Disk& disk) {
   struct stat facts {};
   if (disk.read_only && fstat(disk.descriptor, &facts) == 0) disk.size = static_cast<std::uint64_t>(facts.st_size);
@@ -141,7 +141,7 @@ herr_t read_file(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t address, size_t size, 
     ssize_t const got = pread(disk.descriptor, bytes + done, size - done, static_cast<off_t>(address + done));
     if (got < 0 && errno == EINTR) continue;
     if (got < 0) return -1;
-    if (got == 0) {  // addresses that were given out but not yet written
+    if (got == 0) {  // allocated addresses that were not written yet
       std::memset(bytes + done, 0, size - done);
       break;
     }
@@ -181,7 +181,7 @@ herr_t truncate_file(H5FD_t* base, hid_t, hbool_t) {
   return 0;
 }
 
-// Readers are never locked out, and Disk::open has kept other writers out.
+// Readers are never locked out. Disk::open has excluded other writers.
 herr_t lock(H5FD_t*, hbool_t) { return 0; }
 herr_t unlock(H5FD_t*) { return 0; }
 
@@ -190,7 +190,7 @@ hid_t registered_driver() {
     H5FD_class_t driver{};
 #if H5_VERSION_GE(1, 13, 0)
     driver.version = H5FD_CLASS_VERSION;
-    driver.value = static_cast<H5FD_class_value_t>(511);  // of those that are free for one program's own use
+    driver.value = static_cast<H5FD_class_value_t>(511);  // from the range for private use
 #endif
     driver.name = "boltzmann";
     driver.maxaddr = static_cast<haddr_t>(1) << 62;
@@ -235,7 +235,7 @@ void Disk::open(std::string const& path, Use use) {
   struct stat facts {};
   if (fstat(descriptor, &facts) != 0) throw Error(path + ": " + reason(errno));
   if (!S_ISREG(facts.st_mode)) throw Error(path + ": is not a regular file");
-  struct flock whole {};  // a lock of this opening, seen by no reader
+  struct flock whole {};  // an open-file-description lock; readers do not check it
   whole.l_type = F_WRLCK;
   whole.l_whence = SEEK_SET;
   if (use != Use::read && fcntl(descriptor, F_OFD_SETLK, &whole) != 0 && (errno == EAGAIN || errno == EACCES))
@@ -274,7 +274,7 @@ hid_t access_through(Disk* disk) {
   return access;
 }
 
-// Bob Jenkins, "lookup3" (2006): three words, twelve bytes at a time, and a last round over what is left.
+// Bob Jenkins, "lookup3" (2006): three words, twelve bytes at a time, and a final round for the rest.
 std::uint32_t lookup3(unsigned char const* bytes, std::size_t size) {
   std::uint32_t a = 0xdeadbeefU + static_cast<std::uint32_t>(size), b = a, c = a;
   auto const add = [&](std::size_t count) {

@@ -1,4 +1,4 @@
-// HDF5 files on the C API.
+// HDF5 files with the C API.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/input_file.hpp>
 #include <boltzmann/files/disk_sync.hpp>
@@ -22,8 +22,8 @@ static_assert(sizeof(hid_t) == sizeof(std::int64_t), "HDF5 1.10 or later");
 
 Neighbour neighbour;
 
-// Around each of our calls: the neighbour waits, and HDF5 does not print its error stack; the user's own setting comes
-// back afterwards.
+// Wraps each call of this module: locks out the other user of HDF5, and suppresses the error stack that HDF5 prints.
+// The user's setting is restored afterwards.
 class Silence {
  public:
   Silence() {
@@ -43,7 +43,7 @@ class Silence {
   void* data_ = nullptr;
 };
 
-// An identifier that is closed at the end of its scope.
+// An HDF5 identifier that is closed at the end of its scope.
 template <herr_t (*close)(hid_t)>
 class Scoped {
  public:
@@ -66,7 +66,7 @@ using Attribute = Scoped<H5Aclose>;
 using Object = Scoped<H5Oclose>;
 using Opened = Scoped<H5Dclose>;
 
-// The innermost of HDF5's reasons, on one line.
+// The innermost error message of HDF5, on one line.
 std::string last_reason() {
   std::string text;
   H5Ewalk2(
@@ -80,7 +80,7 @@ std::string last_reason() {
   return text;
 }
 
-// A property list for something that is made: without times in its header, so that two runs give the same bytes.
+// A creation property list without times in the header, so that two runs write the same bytes.
 hid_t creation_list(hid_t kind) {
   hid_t const list = H5Pcreate(kind);
   H5Pset_obj_track_times(list, false);
@@ -115,7 +115,7 @@ std::size_t product(Extents const& extents) {
 
 bool is_empty(Extents const& count) { return std::find(count.begin(), count.end(), 0U) != count.end(); }
 
-// The memory and file spaces of a block; calls transfer(memory space, file space).
+// Makes the memory and file spaces of a block and calls transfer(memory space, file space).
 template <class Transfer>
 bool transfer_block(hid_t dataset, Extents const& start, Extents const& count, Transfer transfer) {
   static_assert(sizeof(hsize_t) == sizeof(std::uint64_t));
@@ -211,22 +211,22 @@ void File::fail(std::string const& what) const {
 
 namespace {
 
-// How files are opened: through our driver, and so that datasets that are still open go with the file.
+// The access property list: uses this module's driver, and closes open datasets with the file.
 hid_t access_list(Disk* disk, bool ordered) {
   hid_t const access = access_through(disk);
   H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
   if (ordered) {
     H5Pset_libver_bounds(access, H5F_LIBVER_V110, H5F_LIBVER_V110);
-    // A process that is killed leaves a write of several pages torn between two of them: no block that is written again
-    // goes over the end of a page. (Blocks are then made one by one, not cut from larger ones.)
+    // A killed process may leave a write torn at a page boundary. So no block that is rewritten may cross the end of a
+    // page. (A size of 0 allocates blocks individually instead of from larger ones.)
     H5Pset_meta_block_size(access, 0);
     H5Pset_alignment(access, 1, 2048);
-    // Chunks get their places when they are written, not when a cache gives them up: so a file does not depend on what
-    // was written before it was opened, and a run that goes on with it leaves the same bytes.
+    // Without a cache, chunks are allocated when they are written, not when they are evicted. So a file does not depend
+    // on what was written before it was opened, and a resumed run writes the same bytes.
     H5Pset_cache(access, 0, 1, 0, 0);
   }
-  // What a writer has half written is whole a moment later. HDF5 waits 1 ns, then 2, 4, ...: 17 ms in all, not the
-  // ages of its own 100 attempts, which it spends on each damaged block.
+  // A half-finished write of another process is complete a moment later. HDF5 waits 1 ns, then 2, 4, ...: 17 ms in all.
+  // Its default of 100 attempts takes very long on each damaged block.
   H5Pset_metadata_read_attempts(access, 24);
   return access;
 }
@@ -270,7 +270,7 @@ std::unique_ptr<File> File::open(std::string path) {
 }
 
 std::unique_ptr<File> File::open_for_writing(std::string path) {
-  open(path);  // tells what is wrong with it
+  open(path);  // throws the reason
   Silence const silence;
   std::unique_ptr<File> file(new File(std::move(path)));
   file->disk_->open(file->path_, Disk::Use::change);
@@ -284,8 +284,8 @@ File::~File() {
   Silence const silence;
   if (id_ >= 0) H5Fclose(id_);
   if (disk_->openings == 0) return;
-  // Of a damaged file HDF5 leaves something open, and goes on comparing it with files that are opened later: its place
-  // in memory stays taken.
+  // HDF5 leaves objects of a damaged file open and compares the file with others opened later, so its Disk stays
+  // allocated.
   disk_->close();
   (void)disk_.release();
 }
@@ -354,7 +354,7 @@ std::vector<std::string> File::children(std::string const& group) const {
     static_cast<std::vector<std::string>*>(data)->emplace_back(name);
     return 0;
   };
-  // HDF5 crashes over a damaged group if it has to sort the names itself.
+  // HDF5 crashes on a damaged group if it must sort the names itself.
   if (H5Literate_by_name(id_, group.c_str(), H5_INDEX_NAME, H5_ITER_NATIVE, nullptr, collect, &names, H5P_DEFAULT) < 0)
     fail("can't read the group " + group);
   std::sort(names.begin(), names.end());
@@ -402,7 +402,7 @@ Dataset File::create_growing(std::string const& dataset, Number number, Extents 
 
 namespace {
 
-// A block in a space of its own; a count of 0 is without end.
+// A dataspace with one block selected; a count of 0 is unlimited.
 hid_t space_with(Extents const& extents, Extents const& start, Extents const& count) {
   bool const grows = !count.empty() && count[0] == 0;
   std::vector<hsize_t> const sizes(extents.begin(), extents.end()), from(start.begin(), start.end());

@@ -1,4 +1,4 @@
-// HDF5 files: a small owner of files, datasets and attributes in which every failure is one readable Error.
+// HDF5 files: small owners of files, datasets and attributes. Every failure is one readable Error.
 #pragma once
 
 #include <boltzmann/files/undo_log.hpp>
@@ -14,29 +14,29 @@ namespace boltzmann::hdf5 {
 struct Disk;
 class File;
 
-/// Keeps HDF5 from closing at the end of the program what is still open (nothing is: Files close themselves). After a
-/// damaged file it would complain there of what it has left open itself. Without effect once HDF5 has been used.
+/// Prevents HDF5 from closing open objects when the program ends (Files close themselves). After a damaged file it
+/// would print errors about objects that it has itself left open. Has no effect once HDF5 has been used.
 void leave_without_words();
 
-/// Somebody else who uses the same HDF5 in this program, from other threads: HDF5 itself knows nothing of threads. Each
-/// is called around all that we ask of it, by the same thread, and nested at times.
+/// Callbacks for another user of the same HDF5 library in this program, in other threads; HDF5 is not thread-safe. Both
+/// are called around each of this module's calls, by the same thread, and may be nested.
 struct Neighbour {
   void (*enter)() = nullptr;
   void (*leave)() = nullptr;
 };
-/// From now on, and before the first file is opened.
+/// Takes effect immediately. Call it before the first file is opened.
 void share_with(Neighbour neighbour);
 
 using Extents = std::vector<std::uint64_t>;
 
 enum class Number { real, integer };  ///< double, or std::int64_t
 
-/// A block of a dataset in another file, and where it is seen in a view. A count of 0 along the first axis: all that there
-/// is, however far it grows.
+/// A block of a dataset in another file, and its place in a view. A count of 0 along the first axis includes all rows,
+/// even if the dataset grows.
 struct Piece {
   std::string dataset;
-  Extents extents, start, count;  ///< of that dataset, and of the block
-  Extents at, size;               ///< where the view has it: as many numbers
+  Extents extents, start, count;  ///< extents of that dataset; start and count of the block
+  Extents at, size;               ///< its place in the view, with as many numbers
 };
 
 /// An open dataset. Valid as long as its File.
@@ -50,8 +50,7 @@ class Dataset {
   Extents extents() const;
   /// Changes the extents of a dataset made by create_growing.
   void resize(Extents const& extents);
-  /// Writes or reads the block of `count` numbers per axis that begins at `start`. Nothing happens if the block is
-  /// empty.
+  /// Writes or reads the block of `count` numbers per axis that begins at `start`. An empty block is a no-op.
   void write(double const* values, Extents const& start, Extents const& count);
   void write(std::int64_t const* values, Extents const& start, Extents const& count);
   void read(double* values, Extents const& start, Extents const& count) const;
@@ -71,17 +70,17 @@ class Dataset {
 };
 
 /// An HDF5 file. All paths inside are absolute ("/particles/ions"). Every function throws Error with the name of the
-/// file and the reason. Not for use by several threads at a time.
+/// file and the reason. Not thread-safe.
 class File {
  public:
-  /// A new, empty file that replaces one of that name. `user_block` bytes (0 or a power of two from 512 on) before
-  /// HDF5's own first byte are the caller's. `ordered` makes the file one that start_ordered_writes can be called for.
+  /// Creates an empty file and replaces one of that name. The first `user_block` bytes (0 or a power of two from 512
+  /// on) are reserved for the caller. `ordered` permits a later call of start_ordered_writes.
   static std::unique_ptr<File> create(std::string path, bool ordered = false, std::uint64_t user_block = 0);
-  /// The same by HDF5's own ways, for views: what they look at is opened as they are.
+  /// The same with HDF5's own driver, for views: the files that they refer to are opened with the same driver.
   static std::unique_ptr<File> create_plain(std::string path);
-  /// An existing file, for reading: also one that another process is writing, or was writing when it was killed.
+  /// Opens an existing file for reading. Another process may be writing it, or may have been killed while writing it.
   static std::unique_ptr<File> open(std::string path);
-  /// An existing file, for changing it.
+  /// Opens an existing file for changes.
   static std::unique_ptr<File> open_for_writing(std::string path);
 
   ~File();
@@ -90,26 +89,26 @@ class File {
 
   std::string const& path() const { return path_; }
 
-  /// From here on HDF5 writes in such an order that the file can be read at any moment (its "single writer, multiple
-  /// readers" mode). Groups, datasets and attributes can no longer be made.
+  /// From now on HDF5 orders its writes such that the file can be read at any moment (its "single writer, multiple
+  /// readers" mode). Groups, datasets and attributes can no longer be created.
   void start_ordered_writes();
 
-  /// From hold to release the file stays as it is; release writes all changes in one go (a flush that takes
-  /// microseconds). For changes to an existing file before the ordered writes start.
+  /// Between hold and release the file is not changed. Release writes all changes at once (within microseconds). For
+  /// changes to an existing file before the ordered writes start.
   void hold();
   void release();
 
-  /// Hands everything written so far to the system. Throws if that, or any write since the last flush, has failed; what
-  /// the last good flush wrote can still be read.
+  /// Hands everything written so far to the operating system. Throws if that, or any write since the last flush, has
+  /// failed. Data up to the last successful flush remain readable.
   void flush();
-  /// Brings what has been flushed to the disk, so that a machine without power loses none of it.
+  /// Syncs flushed data to the disk, so that they survive a loss of power.
   void sync();
-  /// From here on a log keeps what the file, which has been flushed, is now.
+  /// From now on a log records changes, so that the current contents can be restored. The file must have been flushed.
   void keep_in(std::string log, UndoLog::Label const& label);
-  /// UndoLog::take_back, of a file that is closed. Error if another run is writing it.
+  /// Calls UndoLog::take_back for a closed file. Throws Error if another run is writing it.
   static bool take_back(std::string const& path, std::string const& log, UndoLog::Label const& label,
                         std::function<bool()> const& right);
-  /// Flushes and closes, and tells of failures, which the destructor can't.
+  /// Flushes and closes, and reports failures, which the destructor can't.
   void close();
 
   bool has(std::string const& object) const;
@@ -117,28 +116,27 @@ class File {
   std::vector<std::string> children(std::string const& group) const;
 
   void create_group(std::string const& group);
-  /// A second name for the same object.
+  /// Adds a second name of the same object.
   void link(std::string const& object, std::string const& new_name);
 
   Dataset create(std::string const& dataset, Number, Extents const& extents);
-  /// A dataset stored in chunks whose axes can grow, the first one from 0; an axis with 0 in `growing` keeps its
-  /// extent.
+  /// Creates a chunked dataset with growing axes, the first one from 0. An axis with 0 in `growing` keeps its extent.
   Dataset create_growing(std::string const& dataset, Number, Extents const& extents, Extents const& chunk,
                          std::vector<bool> const& growing);
-  /// Shows pieces of datasets of another file, which is looked for in the folder of this one. Where they grow along their
-  /// first axis, it does, and what is nowhere is NaN; else it is 0.
+  /// Creates a view of pieces of datasets of another file in the same folder. If these grow along their first axis, so
+  /// does the view, and missing values are NaN; otherwise missing values are 0.
   void create_view(std::string const& dataset, Number, Extents const& extents, std::string const& file,
                    std::vector<Piece> const& pieces);
-  /// A dataset of one number, again and again, that takes no space.
+  /// Creates a dataset that repeats one number and takes no space.
   void create_same(std::string const& dataset, std::uint64_t count, double number);
   Dataset dataset(std::string const& path) const;
 
   void write_text(std::string const& dataset, std::string const& text);
   std::string read_text(std::string const& dataset) const;
 
-  /// A text of variable length, which all programs read, in a part of the file that has no checksum.
+  /// Sets a text of variable length, which all programs read. HDF5 stores it in a part of the file without a checksum.
   void set(std::string const& object, std::string const& attribute, std::string const& text);
-  /// A text of fixed length, for us: it stands in a header, which has one.
+  /// Sets a text of fixed length for internal use. HDF5 stores it in an object header, which has a checksum.
   void set_fixed(std::string const& object, std::string const& attribute, std::string const& text);
   void set(std::string const& object, std::string const& attribute, std::vector<std::string> const& texts);
   void set(std::string const& object, std::string const& attribute, double value);
@@ -161,7 +159,7 @@ class File {
                   void* values) const;
 
   std::string path_;
-  std::unique_ptr<Disk> disk_;  // outlives the identifier, which writes through it
+  std::unique_ptr<Disk> disk_;  // declared first: the identifier writes through it
   std::int64_t id_ = -1;
 };
 

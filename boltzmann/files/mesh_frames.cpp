@@ -22,7 +22,7 @@ std::string frame_name(std::int64_t step) {
   return step < 0 ? fmt::format("mesh/-{:09d}.vti", -step) : fmt::format("mesh/{:09d}.vti", step);
 }
 
-/// The step in a frame's name; nothing for other files.
+/// Parses the step in a frame's name. Returns false for other files.
 bool step_of(fs::path const& path, std::int64_t& step) {
   std::string const name = path.filename().string();
   auto const [end, error] = std::from_chars(name.data(), name.data() + name.size(), step);
@@ -30,7 +30,7 @@ bool step_of(fs::path const& path, std::int64_t& step) {
 }
 
 double time_of(std::string const& path) {
-  std::string text(4096, '\0');  // it stands near the beginning
+  std::string text(4096, '\0');  // TimeValue is near the beginning
   std::ifstream file(path, std::ios::binary);
   file.read(text.data(), static_cast<std::streamsize>(text.size()));
   std::size_t const at = text.find("TimeValue");
@@ -55,7 +55,7 @@ MeshFrames::MeshFrames(std::string const& folder) : MeshFrames((remove(folder), 
 void MeshFrames::remove(std::string const& folder) {
   std::error_code ignored;
   std::int64_t step = 0;
-  // Only what is ours: somebody may keep something else there.
+  // Consider only this program's frames; the folder may contain other files.
   for (auto const& entry : fs::directory_iterator(folder + "/mesh", ignored))
     if (step_of(entry.path(), step)) fs::remove(entry.path(), ignored);
   fs::remove(folder + "/mesh", ignored);

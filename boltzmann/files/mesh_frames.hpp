@@ -1,4 +1,4 @@
-// Mesh frames: a time series of VTK ImageData that ParaView opens by one index.
+// Mesh frames: a time series of VTK ImageData that ParaView opens through an index file.
 #pragma once
 
 #include <boltzmann/schemes/mesh/mesh_field.hpp>
@@ -14,15 +14,15 @@ namespace boltzmann {
 /// every frame.
 class MeshFrames {
  public:
-  /// Begins anew: frames that are there are removed. Error if the folder can't be written.
+  /// Starts a new series and removes existing frames. Throws Error if the folder can't be written.
   explicit MeshFrames(std::string const& folder);
-  /// Continues after `last_step`: later frames are removed, the index is made of what is there. Error if a frame can't
-  /// be read.
+  /// Continues after `last_step`: later frames are removed, and the index lists the remaining ones. Throws Error
+  /// if a frame can't be read.
   static MeshFrames append_to(std::string const& folder, std::int64_t last_step);
   /// Removes all frames and the index.
   static void remove(std::string const& folder);
 
-  /// Error if the frame or the index can't be written; the index then is what it was.
+  /// Throws Error if the frame or the index can't be written; the index is then unchanged.
   void write(std::int64_t step, double time, std::span<MeshField const* const> fields);
 
  private:

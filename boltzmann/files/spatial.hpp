@@ -1,9 +1,9 @@
-// Which fields readers of trajectories expect to be vectors of space. Private to this room.
+// Fields that readers of trajectories expect as spatial vectors. Private to this module.
 #pragma once
 
 namespace boltzmann {
 
-/// Of a Field or an ExportField.
+/// For a Field or an ExportField.
 template <class AnyField>
 bool is_spatial(AnyField const& field, int dimension) {
   return (field.name == "position" || field.name == "velocity" || field.name == "force") &&

@@ -1,4 +1,4 @@
-// Descriptors 0 to 2, opened on /dev/null where nobody has.
+// Opens closed descriptors 0 to 2 on /dev/null.
 #include <boltzmann/files/standard_streams.hpp>
 
 #include <fcntl.h>
@@ -12,7 +12,7 @@ void open_standard_streams() {
       ++descriptor;
       continue;
     }
-    int const opened = open("/dev/null", O_RDWR);  // takes the lowest number that is free
+    int const opened = open("/dev/null", O_RDWR);  // returns the lowest free number
     if (opened < 0) return;
     descriptor = opened + 1;
   }

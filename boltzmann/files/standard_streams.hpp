@@ -3,8 +3,8 @@
 
 namespace boltzmann {
 
-/// Opens those of the descriptors 0, 1 and 2 that are closed on /dev/null. Else the first file that is opened gets such
-/// a number, and what is printed goes into it. To be called before any file is opened.
+/// Opens those of the descriptors 0, 1 and 2 that are closed on /dev/null. Otherwise the first opened file would get
+/// such a number, and printed text would go into it. Call it before any file is opened.
 void open_standard_streams();
 
 }  // namespace boltzmann

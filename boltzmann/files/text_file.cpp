@@ -1,4 +1,4 @@
-// Text files on the system's own calls.
+// Text files on system calls.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/input_file.hpp>
 #include <boltzmann/files/disk_sync.hpp>

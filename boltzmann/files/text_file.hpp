@@ -1,4 +1,4 @@
-// Text files that grow: a write is whole or taken back, and doubles are written so that they read back as the same
+// Text files that grow. A write is complete or undone, and doubles are written such that they read back as the same
 // bits.
 #pragma once
 
@@ -9,20 +9,21 @@
 
 namespace boltzmann {
 
-/// What errno says, as words: "No space left on device".
+/// The message for an errno: "No space left on device".
 std::string reason(int error);
 
 /// Appends the shortest decimal text that reads back as the same double ("nan" and "inf" for those).
 void append_number(std::string& text, double number);
 void append_number(std::string& text, std::int64_t number);
 
-/// Opens a file for writing, with further flags of open(2); negative, with errno, if it can't be. A name that ends in
-/// ".part" stands for a moment until it is renamed: such a file is made anew, so that no link leads elsewhere.
+/// Opens a file for writing, with further flags of open(2). Returns a negative number, with errno, on failure. A name
+/// that ends in ".part" is temporary until the file is renamed; such a file is created anew, so that a link can't
+/// redirect it.
 int open_for_writing(std::string const& path, int flags);
 
-/// A file of text that is written at its end. Every write goes to the system at once, so that a killed run loses
-/// nothing; a write that fails (disk full) is taken back as far as the system allows. Failures throw Error with path
-/// and reason.
+/// A text file that is written at its end. Every write goes to the operating system at once, so that a killed run loses
+/// nothing. A failed write (disk full) is undone as far as the system allows. Failures throw Error with path and
+/// reason.
 class TextFile {
  public:
   enum class Mode { replace, append };
@@ -34,11 +35,11 @@ class TextFile {
 
   std::string const& path() const { return path_; }
   void write(std::string_view text);
-  /// Cuts the file to its first `size` bytes; the next write follows there.
+  /// Truncates the file to its first `size` bytes; the next write follows there.
   void cut(std::uint64_t size);
-  /// Brings all that was written to the disk, so that a machine without power loses none of it.
+  /// Syncs all written data to the disk, so that they survive a loss of power.
   void sync();
-  /// Closes the file. The destructor closes as well, but can't tell of a failure.
+  /// Closes the file. The destructor closes it too, but can't report a failure.
   void close();
 
  private:
@@ -47,11 +48,11 @@ class TextFile {
   std::uint64_t size_ = 0;
 };
 
-/// The whole content of a file; Error if it can't be read.
+/// Returns the whole contents of a file. Throws Error if it can't be read.
 std::string read_text(std::string const& path);
 
-/// A new file that is there whole or not at all: path + ".part", which gets its name when it is finished, and goes if
-/// it is not.
+/// A new file that appears only when it is complete: it is written to path + ".part" and renamed by finish(), or else
+/// removed.
 class PartFile {
  public:
   explicit PartFile(std::string path) : path_(std::move(path)), file_(path_ + ".part", TextFile::Mode::replace) {}
@@ -60,7 +61,7 @@ class PartFile {
   PartFile& operator=(PartFile const&) = delete;
 
   void write(std::string_view text) { file_.write(text); }
-  /// Error if it can't be written.
+  /// Renames the file. Throws Error if it can't be written.
   void finish();
 
  private:
@@ -69,10 +70,10 @@ class PartFile {
   bool finished_ = false;
 };
 
-/// The same of one text.
+/// Writes a file with this text in the same way.
 void write_whole(std::string const& path, std::string_view text);
 
-/// The words between separators, without blanks around them; empty ones are left out.
+/// The words between separators, without surrounding blanks. Empty words are omitted.
 std::vector<std::string> split_words(std::string_view text, char separator);
 
 }  // namespace boltzmann

@@ -26,8 +26,8 @@ using hdf5::Extents;
 using hdf5::File;
 using hdf5::Number;
 
-// Chunks of at least 16 kB where many small frames make one, and of at most about 1 MB. Ensembles that may grow have wide
-// ones from the start: a frame of 40000 particles would be thousands of the chunks that suit the first 10.
+// Chunks have at least 16 kB if they hold many small frames, and at most about 1 MB. Ensembles that may grow have large
+// chunks from the start: a frame of 40000 particles would need thousands of the chunks that suit 10 particles.
 constexpr std::size_t least_rows_growing = 512;
 
 Extents chunk_for(std::size_t particles, std::size_t columns, bool may_grow) {
@@ -45,16 +45,16 @@ struct StoredColumn {
   bool scalar;
   std::uint64_t checksum = 0;  // of a constant field
   Dataset values;
-  double factor = 1;                      // numbers are written times this
-  std::optional<Dataset> checksums = {};  // of each frame; files of version 0.1 have none
+  double factor = 1;                      // factor of written numbers
+  std::optional<Dataset> checksums = {};  // per frame; absent in files of version 0.1
 };
 
 struct StoredEnsemble {
   std::string name, class_name;
-  std::uint64_t capacity = 0;  // particles that a frame has room for
+  std::uint64_t capacity = 0;  // allocated particles per frame
   std::vector<StoredColumn> columns;
   Dataset count;
-  std::optional<Dataset> checksums;  // of what a frame says besides its fields
+  std::optional<Dataset> checksums;  // of the data of a frame besides its fields
   std::vector<Dataset> labels;       // id and species
 };
 
@@ -69,7 +69,7 @@ std::vector<double> gather(AnyEnsemble const& ensemble, StoredColumn const& colu
   return values;
 }
 
-/// Of the values as they are read: without the columns that pad vectors.
+/// The checksum of the values as they are read: without the padding columns of vectors.
 std::uint64_t checksum_of(std::vector<double> const& values, StoredColumn const& column) {
   auto const components = static_cast<std::size_t>(column.field.components);
   if (components == column.columns) return layout::checksum(values);
@@ -92,10 +92,10 @@ struct Trajectory::State {
   std::array<bool, 3> periodic{};
   std::uint64_t frames = 0;
   double time_factor = 1, length_factor = 1;
-  bool laid_out = false;       // the groups and datasets are there
+  bool laid_out = false;       // the groups and datasets exist
   bool open = false;           // the datasets are open and the ordered writes have begun
-  std::uint64_t checksum = 0;  // of all checksums of all frames
-  std::string failure;         // why the trajectory has ended
+  std::uint64_t checksum = 0;  // combines all checksums of all frames
+  std::string failure;         // reason why the trajectory has ended
 
   double factor(Dimension dimension) const { return options.factor ? options.factor(dimension) : 1; }
   std::string unit(Dimension dimension) const { return options.unit_name ? options.unit_name(dimension) : ""; }
@@ -121,7 +121,7 @@ struct Trajectory::State {
   }
 
   void lay_out(std::span<AnyEnsemble const* const> list, BoxEdges const& box);
-  // `first` is the group of the first ensemble, whose steps, times and box are those of all.
+  // `first` is the group of the first ensemble; all ensembles share its steps, times and box.
   void lay_out(AnyEnsemble const& ensemble, std::size_t index, BoxEdges const& box, std::string const& first);
   void lay_out(AnyEnsemble const& ensemble, Field const& field, std::string const& first);
   void lay_out(BoxEdges const& box, std::string const& first);
@@ -137,7 +137,7 @@ struct Trajectory::State {
   void write_checksum(Dataset& checksums, std::uint64_t sum);
 };
 
-// The groups, and datasets without frames.
+// Creates the groups, and datasets without frames.
 void Trajectory::State::lay_out(std::span<AnyEnsemble const* const> list, BoxEdges const& box) {
   if (list.empty()) throw Error(path + ": a trajectory needs an ensemble");
   for (std::size_t k = 0; k < list.size(); ++k) {
@@ -263,7 +263,8 @@ void Trajectory::State::lay_out(BoxEdges const& box, std::string const& first) {
   of_box("bounds", {0, 2, d}, {256, 2, d});
 }
 
-// Opens what lay_out, now or in an earlier run, has made; Error if it isn't what these ensembles need.
+// Opens the datasets that lay_out has created, now or in an earlier run. Throws Error if they don't match these
+// ensembles.
 void Trajectory::State::open_datasets(std::span<AnyEnsemble const* const> list, BoxEdges const& box) {
   auto const names = layout::ensembles(*file);
   std::vector<std::string> given;
@@ -324,7 +325,7 @@ void Trajectory::State::open_datasets(std::span<AnyEnsemble const* const> list, 
   open = true;
 }
 
-// Makes the file what it was when it had the frames until a step, if that was marked.
+// Restores the file to the state after the frames up to a step, if that state was marked.
 void Trajectory::State::take_back(std::int64_t last_step) const {
   auto const first_frames = [&](std::int64_t last) -> UndoLog::Label {
     auto const stored = File::open(path);
@@ -341,7 +342,7 @@ void Trajectory::State::take_back(std::int64_t last_step) const {
   });
 }
 
-// Cuts off the frames after a step, and those that a killed run has left half-written.
+// Removes the frames after a step, and incomplete frames of a killed run.
 void Trajectory::State::cut(std::int64_t last_step) {
   auto const names = layout::ensembles(*file);
   layout::Frames const stored = layout::frames(*file);
@@ -384,7 +385,7 @@ void Trajectory::State::cut(std::int64_t last_step) {
   file->release();
 }
 
-// Room for more particles.
+// Allocates space for more particles.
 void Trajectory::State::grow(StoredEnsemble& stored, std::size_t index, std::uint64_t capacity) {
   if (capacity > stored.capacity) {
     for (auto& column : stored.columns) {
@@ -430,7 +431,7 @@ void Trajectory::State::write_checksum(Dataset& checksums, std::uint64_t sum) {
   layout::add_checksum(checksum, frames, sum);
 }
 
-// Appends this frame's values to the positions, or to all other fields.
+// Appends this frame's values of the positions, or of all other fields.
 void Trajectory::State::write_values(StoredEnsemble& stored, AnyEnsemble const& ensemble, bool positions) {
   for (auto& column : stored.columns) {
     if (column.constant || (column.field.name == "position") != positions) continue;
@@ -444,7 +445,7 @@ void Trajectory::State::write_values(StoredEnsemble& stored, AnyEnsemble const& 
   }
 }
 
-// The positions go last, in a flush of their own: a frame is there when its positions are.
+// The positions are written last, in a separate flush: a frame is complete if it has positions.
 void Trajectory::State::write_frame(std::int64_t at_step, double at_time, std::span<AnyEnsemble const* const> list,
                                     BoxEdges const& box) {
   for (std::size_t k = 0; k < list.size(); ++k) {
@@ -556,7 +557,7 @@ void Trajectory::close() {
 }
 
 void check_stored_name(std::string const& what, std::string const& name) {
-  // HDF5 reads '/' and '.' as paths, and names of ensembles are in those of files.
+  // HDF5 interprets '/' and '.' as paths, and names of ensembles are parts of file names.
   constexpr std::size_t longest = 100;
   bool const control = std::any_of(name.begin(), name.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; });
   if (name.empty() || name.size() > longest || control || name == "." || name == ".." ||

@@ -1,4 +1,4 @@
-// Frames go from the reader, field by field, through a change of units, to the writer of a format.
+// The reader yields frames field by field; their units are converted, and the writer of a format writes them.
 #include <boltzmann/core/elements.hpp>
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/files/export.hpp>
@@ -76,7 +76,7 @@ constexpr std::array all_formats{
                  "spreadsheets, pandas, R", csv_writer, Fields::each, Frames::all},
 };
 
-// ---- What is chosen ----
+// ---- Selection ----
 
 std::vector<std::string> names_of(TrajectoryReader const& reader) {
   std::vector<std::string> names;
@@ -195,7 +195,7 @@ std::vector<std::size_t> chosen_frames(std::string_view text, std::size_t count)
 
 namespace {
 
-/// A frame of those that are chosen; `memory` keeps its numbers.
+/// A frame with the selected fields; `memory` stores its numbers.
 ExportFrame frame_of(TrajectoryReader const& reader, std::size_t number, std::vector<Chosen> const& chosen,
                      UnitChange const& units, ExportOptions const& options, std::vector<std::vector<double>>& memory) {
   ExportFrame frame;
@@ -253,7 +253,7 @@ ExportReport export_trajectory(TrajectoryReader const& reader, std::string const
   if (format.frames == Frames::one_ensemble && (frames.size() != 1 || chosen.size() != 1))
     throw Error(fmt::format("'{}' holds one frame of one ensemble, not {} of {}; choose them, or write .pvd", path,
                             frames.size(), chosen.size()));
-  // Identifiers of an ensemble stay what they are while others grow.
+  // Fixed blocks, so that identifiers of an ensemble don't change when others grow.
   std::int64_t next_id = 1;
   for (auto& one : chosen) {
     one.first_id = next_id;

@@ -1,4 +1,4 @@
-// What the writer and the reader of trajectories both know of the file. Private to this room.
+// The file layout shared by the writer and the reader of trajectories. Private to this module.
 #pragma once
 
 #include <boltzmann/files/hdf5_file.hpp>
@@ -11,7 +11,7 @@
 
 namespace boltzmann::layout {
 
-/// The names of the ensembles in the order in which they were written. Error if the file is no trajectory of ours.
+/// The names of the ensembles in the order of writing. Throws Error if the file is not a trajectory of Boltzmann.
 std::vector<std::string> ensembles(hdf5::File const& file);
 
 struct Frames {
@@ -19,26 +19,26 @@ struct Frames {
   std::vector<double> times;
 };
 
-/// The frames that are complete: those that every dataset has.
+/// The complete frames: those that every dataset has.
 Frames frames(hdf5::File const& file);
 
-// Beside each field's values stands a checksum of each frame, beside the counts one of all else that a frame says, with
-// a constant field the attribute boltzmann_checksum. Files of version 0.1 have none.
+// Checksums. Each field has a checksum per frame beside its values. Beside the counts, there is one of all other data
+// of a frame. A constant field has the attribute boltzmann_checksum. Files of version 0.1 have none.
 
-/// Of the values of a field as they stand in the file, without the columns that pad vectors.
+/// The checksum of the values of a field in the file, without the padding columns of vectors.
 std::uint64_t checksum(std::vector<double> const& values);
-/// Of what a frame says of an ensemble: step, time, number of particles, bounds of the box (low, then high).
+/// The checksum of a frame's data of an ensemble: step, time, number of particles, bounds of the box (low, then high).
 std::uint64_t checksum(std::int64_t step, double time, std::int64_t count, std::span<double const> bounds);
-/// Adds one of a frame to those of all, in any order.
+/// Adds the checksum of a frame to the total. The order does not matter.
 void add_checksum(std::uint64_t& all, std::uint64_t frame, std::uint64_t sum);
-/// All of the first frames together. Error if there are not so many.
+/// The total of the first frames. Throws Error if there are fewer.
 std::uint64_t checksum_of_frames(hdf5::File const& file, std::uint64_t frames);
 
-/// How many of the first frames are of steps up to this one. A frame that a failing disk has left half written may say
-/// any step: frames ascend.
+/// The number of leading frames with steps up to this one. Steps must ascend, because a frame damaged by a failing disk
+/// may contain any step.
 std::size_t frames_until(std::vector<std::int64_t> const& steps, std::int64_t last_step);
 
-/// Which axes the box's group says are periodic. Error if it doesn't.
+/// The periodic axes in the group of the box. Throws Error if they are missing.
 std::array<bool, 3> periodic_axes(hdf5::File const& file, std::string const& box);
 
 }  // namespace boltzmann::layout

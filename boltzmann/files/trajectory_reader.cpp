@@ -92,7 +92,7 @@ std::uint64_t checksum_of_frames(hdf5::File const& file, std::uint64_t frames) {
 }
 
 std::size_t frames_until(std::vector<std::int64_t> const& steps, std::int64_t last_step) {
-  if (steps.size() > 1 && steps[1] < steps[0]) return steps.size();  // backwards from the start
+  if (steps.size() > 1 && steps[1] < steps[0]) return steps.size();  // counts backwards from the start
   std::size_t frames = 0;
   while (frames < steps.size() && steps[frames] <= last_step && (frames == 0 || steps[frames] > steps[frames - 1]))
     ++frames;
@@ -115,15 +115,15 @@ std::array<bool, 3> periodic_axes(hdf5::File const& file, std::string const& box
 
 struct TrajectoryReader::State {
   std::unique_ptr<hdf5::File> file;
-  std::vector<bool> damaged;  // frames whose step, time, size or box is not what was written
+  std::vector<bool> damaged;  // frames whose step, time, size or box differs from what was written
 
-  /// Numbers in the file are those of the simulation times this.
+  /// The factor from the simulation's numbers to those in the file.
   double factor(std::string const& dataset) const {
     return file->has(dataset, "boltzmann_factor") ? file->real(dataset, "boltzmann_factor") : 1;
   }
 
-  /// Finds the frames of which what they say has not the checksum that was written: the last ones may be, after a
-  /// failure of the disk or of the power, and those before them are still good.
+  /// Finds the frames whose step, time, size or box doesn't match its checksum. After a failure of the disk or of the
+  /// power, the last frames may be damaged; earlier ones are still good.
   void find_damaged(std::vector<StoredEnsemble> const& ensembles, std::vector<std::int64_t> const& steps,
                     std::vector<double> const& times) {
     damaged.assign(steps.size(), false);
@@ -147,7 +147,7 @@ struct TrajectoryReader::State {
     }
   }
 
-  /// Error if values have not the checksum that was written.
+  /// Throws Error if the values don't match their checksum.
   void check_values(std::string const& element, bool constant, std::size_t frame,
                     std::vector<double> const& values) const {
     std::int64_t sum = 0;
@@ -297,7 +297,7 @@ std::string TrajectoryReader::find_damage(std::size_t frames) const {
   return found;
 }
 
-/// In blocks of frames, of some 32 MB.
+/// Reads blocks of frames, of about 32 MB each.
 std::string TrajectoryReader::find_damage(std::size_t frames, StoredEnsemble const& ensemble,
                                           StoredField const& field) const {
   std::string const element = "/particles/" + ensemble.name + "/" + field.name;

@@ -1,7 +1,8 @@
-// What MDAnalysis' readers ask for: coordinates/H5MD.py (the first group of `particles`, box/dimension 3, position and
-// velocity with a `unit` that it knows at their values, `time` with one, box/edges/value of each frame, observables whose
-// `value` has one number a frame, of which it takes `dt` for the time step), and its parse_n_atoms, from which
-// topology/MinimalParser.py makes a universe of one file (a group called `trajectory`, and the file's name ends with .h5md).
+// The view satisfies MDAnalysis' readers. coordinates/H5MD.py needs: the first group of `particles`; box/dimension 3;
+// position and velocity with a known `unit` at their values; `time` with one; box/edges/value of each frame;
+// observables whose `value` has one number per frame, of which `dt` is the time step. parse_n_atoms and
+// topology/MinimalParser.py make a universe from one file if it has a group called `trajectory` and its name ends with
+// .h5md.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/files/hdf5_file.hpp>
 #include <boltzmann/files/trajectory_view.hpp>
@@ -25,7 +26,7 @@ using hdf5::Piece;
 
 constexpr std::array known_lengths{"Angstrom", "nm", "pm", "fm"};
 constexpr std::array known_times{"ps", "fs", "ns", "s"};
-// "Angstrom fs-1" is left out: it takes it for 1e-3 Angstrom/ps, which is wrong by a factor of a million.
+// "Angstrom fs-1" is left out, because MDAnalysis reads it as 1e-3 Angstrom/ps, wrong by a factor of a million.
 constexpr std::array known_velocities{"Angstrom ps-1", "nm ps-1", "nm ns-1", "pm ps-1", "m s-1"};
 constexpr std::array known_forces{"N", "J m-1"};
 
@@ -34,7 +35,7 @@ bool is_one_of(std::string_view word, std::array<char const*, N> const& words) {
   return std::find(words.begin(), words.end(), word) != words.end();
 }
 
-/// So many ps are one of these times.
+/// The unit of time in ps.
 double picoseconds(std::string const& unit) {
   return unit == "fs" ? 1e-3 : unit == "ns" ? 1e3 : unit == "s" ? 1e12 : 1;
 }
@@ -97,7 +98,7 @@ class View {
     if (!own.empty()) file_->set_fixed(dataset, "boltzmann_unit", own);
   }
 
-  /// Of all ensembles, one behind the other: where(ensemble, from the view's particle `at`).
+  /// Concatenates all ensembles: calls where(ensemble, index of its first particle in the view).
   template <class Where>
   std::vector<Piece> pieces(Where const& where) const {
     std::vector<Piece> all;
@@ -150,7 +151,7 @@ class View {
     file_->set(view_group + "/species", "names", names);
   }
 
-  /// As the first frame has it; 0 of ensembles without.
+  /// Repeats the value of the first frame; 0 for ensembles without this field.
   void add_constant(std::string const& name) {
     auto const& declared = options_.constant_fields;
     bool const constant = std::find(declared.begin(), declared.end(), name) != declared.end();
@@ -175,7 +176,7 @@ class View {
     if (std::string const h5md = h5md_unit(own); !h5md.empty()) file_->set(view_group + "/" + name, "unit", h5md);
   }
 
-  /// From each frame to the next; frames that come are taken to follow as the last ones do.
+  /// Times between successive frames. Future frames are assumed to have the last interval.
   void add_intervals(std::span<double const> times, bool finished) {
     if (times.size() < 2) return;
     double const factor = readable_ ? picoseconds(h5md_unit(unit(dimensions::time))) : 1;
@@ -198,7 +199,7 @@ class View {
   BoxEdges const& box_;
   std::unique_ptr<File> file_;
   std::uint64_t size_ = 0;
-  bool readable_ = true;  // by MDAnalysis, whose other units are labels
+  bool readable_ = true;  // true if MDAnalysis reads all units; otherwise units are only labels
 };
 
 }  // namespace

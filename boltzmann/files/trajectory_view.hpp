@@ -1,4 +1,5 @@
-// Trajectory views: beside trajectory.h5 a small file that shows all its ensembles as one, as MDAnalysis opens it.
+// Trajectory views: a small file beside trajectory.h5 that shows all its ensembles as one, in a form that MDAnalysis
+// opens.
 #pragma once
 
 #include <boltzmann/files/trajectory.hpp>
@@ -10,18 +11,18 @@
 
 namespace boltzmann {
 
-/// Whether MDAnalysis (2.4 to 2.8) takes this unit, in H5MD's notation, of the elements "time", "position", "edges" and
-/// "velocity"; of others it takes any.
+/// True if MDAnalysis (2.4 to 2.8) reads this unit, in H5MD's notation, for the elements "time", "position", "edges"
+/// and "velocity". It accepts any unit for other elements.
 bool mdanalysis_reads(std::string_view element, std::string_view unit);
 
-/// Writes `path`, a file of HDF5's views into `trajectory`, a file in the same folder that a Trajectory with these options
-/// writes of these ensembles, frame by frame: it need not be written again when there are more. The particles of all
-/// ensembles stand one behind the other in the group that MDAnalysis looks for when it is given nothing else
-/// (`particles/trajectory`), with positions, velocities where all have them, box, species, masses and charges; `times` of
-/// the frames so far, as they are in the file, give the steps in time between them; unless it is finished more are expected,
-/// up to twice as many, that follow like the last ones. Units are those of the trajectory where
-/// MDAnalysis reads them; where it doesn't read one of them, all numbers stand as they are and are called angstrom, ps and
-/// angstrom/ps, and `boltzmann_unit` says what they are. Error if it can't be written; then there is none.
+/// Writes `path`, a file of HDF5 views into `trajectory`. That file is in the same folder, written frame by frame by a
+/// Trajectory with these options and ensembles. The view remains valid when frames are added. The particles of all
+/// ensembles are concatenated in the group that MDAnalysis opens by default (`particles/trajectory`), with positions,
+/// velocities if all have them, box, species, masses and charges.
+/// `times` are the times of the frames so far, as in the file; they give the intervals. Unless the view is finished, up
+/// to twice as many frames are expected, with the last interval. Units are those of the trajectory if MDAnalysis reads
+/// them. If it doesn't read one of them, all numbers are unchanged and labelled angstrom, ps and angstrom/ps, and
+/// `boltzmann_unit` has the true units. Throws Error if the view can't be written; then no file is left.
 void write_trajectory_view(std::string const& path, std::string const& trajectory, TrajectoryOptions const& options,
                            std::span<AnyEnsemble const* const> ensembles, BoxEdges const& box,
                            std::span<double const> times, bool finished = false);

@@ -1,4 +1,4 @@
-// Records of pages.
+// The log consists of records of pages.
 #include <boltzmann/files/checksum.hpp>
 #include <boltzmann/files/disk_sync.hpp>
 #include <boltzmann/files/text_file.hpp>
@@ -21,10 +21,10 @@ namespace {
 constexpr std::uint64_t page = 4096;
 
 struct Record {
-  std::uint64_t address = 0, count = 0, checksum = 0;  // of the bytes that follow it
+  std::uint64_t address = 0, count = 0, checksum = 0;  // checksum: of the following bytes
 };
 
-// Fewer than asked for at the end of the file.
+// Returns fewer bytes at the end of the file.
 std::size_t read_at(int file, std::uint64_t address, void* bytes, std::size_t count) {
   std::size_t done = 0;
   while (done < count) {
@@ -58,7 +58,7 @@ bool put_back(int file, std::vector<Kept> const& all, std::uint64_t size) {
   return ftruncate(file, static_cast<off_t>(size)) == 0 && whole;
 }
 
-// All of a log; nothing if one is damaged, or not all of them are there.
+// All records of a log; nothing if one is damaged or missing.
 std::optional<std::vector<Kept>> records(int log, std::uint64_t at, std::uint64_t count) {
   struct stat facts {};
   if (fstat(log, &facts) != 0) return {};
@@ -79,7 +79,7 @@ std::optional<std::vector<Kept>> records(int log, std::uint64_t at, std::uint64_
   return found;
 }
 
-// Another one each time that the machine starts; zeros if that can't be known.
+// An identifier of this boot of the machine; zeros if it is unknown.
 std::array<char, 36> this_boot() {
   std::array<char, 36> id{};
   int const file = open("/proc/sys/kernel/random/boot_id", O_RDONLY | O_CLOEXEC);

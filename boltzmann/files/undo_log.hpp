@@ -1,5 +1,5 @@
-// Undo log: what stood where a file is written over, so that the file can be made what it was, byte for byte (databases
-// call it a rollback journal).
+// Undo log: the previous contents of overwritten parts of a file, so that the file can be restored byte for byte (a
+// rollback journal in the terms of databases).
 #pragma once
 
 #include <array>
@@ -10,38 +10,40 @@
 
 namespace boltzmann {
 
-/// A log of one file, beside it. A record stands in the log before its bytes go from the file, so a process that is
-/// killed at any moment leaves a log that fits. A machine without power may lose the one and not the other: then only a
-/// log that was closed is used. Where the log can't be written it goes, and nothing is kept: the file can't be taken back.
+/// The log of one file, beside it. A record is written before its bytes are overwritten in the file, so a process that
+/// is killed at any moment leaves a consistent log. A loss of power may lose either of them; then only a log that was
+/// closed is used. If the log can't be written, it is removed and the file can't be restored.
 class UndoLog {
  public:
-  /// Tells what a file was when its log began.
+  /// Identifies the state of the file when its log began.
   using Label = std::array<std::uint64_t, 2>;
 
-  /// From here on the file, of so many bytes, can be made what it is now. A log of before is replaced.
+  /// Starts a log of a file of this size; the current contents can be restored later. Replaces an earlier log.
   UndoLog(std::string path, std::uint64_t size, Label const& label);
   ~UndoLog();
   UndoLog(UndoLog const&) = delete;
   UndoLog& operator=(UndoLog const&) = delete;
 
-  /// Keeps what stands in these bytes of the file, before they are written over or cut off.
+  /// Records these bytes of the file before they are overwritten or cut off.
   void keep(int file, std::uint64_t address, std::uint64_t count);
-  /// The file has been closed: brings the log to the disk, where it can be used after a loss of power, too.
+  /// Call it when the file has been closed: syncs the log to the disk, so that it can be used even after a loss of
+  /// power.
   void close();
 
-  /// Makes the file what it was when the log of this label began, if `right` says that it is that, having been asked
-  /// before the file is cut to its length of then; else the file stays what it is. Whether it was done.
+  /// Restores the contents of the file when the log of this label began, if `right` confirms them. `right` is called
+  /// before the file is truncated to its old length; otherwise the file is unchanged. Returns true if the contents were
+  /// restored.
   static bool take_back(std::string const& path, int file, Label const& label, std::function<bool()> const& right);
 
  private:
-  struct Head {                                           // numbers as the machine has them
+  struct Head {                                           // numbers in native byte order
     std::uint64_t signature = 0x31'6f'64'6e'75'20'7a'62;  // "bz undo1"
     std::uint64_t size = 0;                               // of the file
     Label label{};
     std::uint64_t records = 0, closed = 0;
     std::array<char, 36> boot{};
     std::uint32_t unused = 0;
-    std::uint64_t checksum = 0;  // of what stands before it
+    std::uint64_t checksum = 0;  // of the preceding members
 
     std::uint64_t sum() const;
   };
@@ -52,8 +54,8 @@ class UndoLog {
   std::string path_;
   int descriptor_ = -1;
   Head head_;
-  std::uint64_t used_ = sizeof(Head);  // of the log
-  std::vector<bool> kept_;             // pages
+  std::uint64_t used_ = sizeof(Head);  // size of the log
+  std::vector<bool> kept_;             // by page
 };
 
 }  // namespace boltzmann

@@ -1,4 +1,4 @@
-// Units by name, looked up in styles and formats, and factors to them.
+// Resolves units by name in styles and formats, and computes conversion factors.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/quantity_text.hpp>
 #include <boltzmann/files/unit_change.hpp>
@@ -10,9 +10,9 @@
 namespace boltzmann {
 namespace {
 
-constexpr double largest_of_atoms = 1e-8;  // m: runs with shorter units of length are those of atoms
+constexpr double largest_of_atoms = 1e-8;  // in m; runs with shorter units of length are those of atoms
 
-/// As parse_quantity reads a unit: with a number before it.
+/// A unit as parse_quantity reads it: with a number before it.
 std::string as_quantity(std::string const& unit) {
   bool const is_number =
       !unit.empty() && ((unit[0] >= '0' && unit[0] <= '9' && !unit.starts_with("1/")) || unit[0] == '.');

@@ -1,4 +1,4 @@
-// Unit change: from the units of a trajectory to those that an exported file is in. Private to this room.
+// Unit change: from the units of a trajectory to those of an exported file. Private to this module.
 #pragma once
 
 #include <boltzmann/core/unit_style.hpp>
@@ -10,18 +10,18 @@ namespace boltzmann {
 
 class UnitChange {
  public:
-  /// To the units that are wanted, "metal", "run"; empty: those of the format. Error if there are none of that name, the
-  /// format is in others, or the run has none.
+  /// `wanted`: a unit style, "metal", or "run"; empty: the default of the format. Throws Error if there is no such
+  /// style, the format has other fixed units, or the run has none.
   UnitChange(std::string const& wanted, ExportFormat const& format, TrajectoryReader const& reader);
 
-  /// "metal", "run", ...; "none": the run has pure numbers.
+  /// "metal", "run", ...; "none" if the run has pure numbers.
   std::string const& name() const { return name_; }
 
   struct Change {
     std::string unit;
     double factor = 1;
   };
-  /// For numbers that are in this unit.
+  /// The change for numbers in this unit.
   Change operator()(std::string const& unit) const;
 
  private:

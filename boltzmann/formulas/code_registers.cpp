@@ -1,4 +1,4 @@
-// Who is in which register, and who has to leave when there is none.
+// Register allocation: which value is in which register, and which is spilled.
 #include <boltzmann/core/pack_math.hpp>
 #include <boltzmann/formulas/code_registers.hpp>
 #include <boltzmann/formulas/machine_code.hpp>
@@ -85,7 +85,7 @@ Xmm Registers::in(Source const& of) {
 }
 
 void Registers::number_packs() {
-  auto const roots = detail::roots_of_two<1>;  // that of ordinary units
+  auto const roots = detail::roots_of_two<1>;  // those of ordinary units
   for (std::size_t n = 0; n < numbers; ++n) {
     align(64, false);
     L(number_label_[n]);

@@ -1,4 +1,4 @@
-// Where the numbers of machine code are while it is written: in registers, in columns, in scalars. Private to this room.
+// The places of numbers in machine code while it is generated: registers, columns, scalars. Private to this module.
 #pragma once
 
 #include <boltzmann/formulas/formula_program.hpp>
@@ -20,14 +20,14 @@ using Xbyak::Xmm;
 
 constexpr std::size_t never = std::numeric_limits<std::size_t>::max();
 
-/// What a column holds from the step that writes it to the last one that reads it.
+/// The lifetime of a column's value, from the step that writes it to the last one that reads it.
 struct Kept {
   std::uint16_t column = 0;
-  std::vector<std::size_t> reads;  ///< steps, sorted; `never` behind them if it is wanted after all of them
+  std::vector<std::size_t> reads;  ///< steps, sorted; followed by `never` if it is needed after all of them
   int in_register = -1;
   bool in_column = false;
 
-  /// The first step after `step` that reads it; 0 if none does.
+  /// The first step after `step` that reads it; 0 if there is none.
   std::size_t read_after(std::size_t step) const {
     auto const next = std::upper_bound(reads.begin(), reads.end(), step);
     return next == reads.end() ? 0 : *next;
@@ -35,14 +35,14 @@ struct Kept {
   bool is_wanted(std::size_t step) const { return !reads.empty() && reads.back() >= step; }
 };
 
-/// Which values steps read and write.
+/// The values that steps read and write.
 struct Flow {
   struct Of {
     int a = -1, b = -1, c = -1, to = -1;  ///< indices of values; -1: a scalar
   };
   std::vector<Kept> values;
   std::vector<Of> steps;
-  std::vector<int> at;  ///< what each column holds
+  std::vector<int> at;  ///< the value of each column
 
   Flow(std::vector<Step> const& program, std::size_t columns) : at(columns, -1) {
     for (std::size_t k = 0; k < program.size(); ++k) {
@@ -67,8 +67,8 @@ struct Flow {
   }
 };
 
-/// Numbers that instructions need besides the program's own: a pack of each stands behind the code. The exponential's are
-/// those of core/pack_math.hpp.
+/// Constants of instructions besides the program's own: a pack of each follows the code. Those of the exponential are
+/// from core/pack_math.hpp.
 enum class Number {
   one,
   half,
@@ -104,8 +104,8 @@ struct Source {
 };
 inline Source source(Operand operand, int value) { return {value, operand.scalar ? operand.index : std::uint16_t(0)}; }
 
-/// Gives registers to values while steps are written, one after the other. Values are kept in registers as long as
-/// possible; one goes to its column when registers are short.
+/// Allocates registers to values while steps are generated in order. Values are kept in registers as long as possible;
+/// one is spilled to its column when registers are short.
 class Registers : protected Xbyak::CodeGenerator {
  protected:
   Registers(std::size_t most_bytes, int width, double least_square);
@@ -116,22 +116,22 @@ class Registers : protected Xbyak::CodeGenerator {
   int bytes() const { return width_ * static_cast<int>(sizeof(double)); }
   Xbyak::Address column(std::uint16_t which) { return ptr[columns_ + which * column_bytes_]; }
   Xbyak::Address scalar(std::size_t which) { return ptr[scalars_ + static_cast<int>(which) * bytes()]; }
-  /// In memory, or in a register of its own.
+  /// As an operand in memory, or in a register of its own.
   Xbyak::Operand const& number(Number which) const {
     auto const n = static_cast<std::size_t>(which);
     if (number_register_[n]) return *number_register_[n];
     return number_memory_[n];
   }
-  /// In the register where it is kept, or brought to this one.
+  /// In the register where it is kept, or loaded into the other one.
   Xmm kept(Number which, Xmm const& otherwise) {
     auto const& own = number_register_[static_cast<std::size_t>(which)];
     if (own) return *own;
     vmovapd(otherwise, number(which));
     return otherwise;
   }
-  /// A register that holds none of the values in use; if there is none, the value that is wanted last goes to its column.
+  /// A register that holds no live value; if there is none, spills the value whose next use is latest.
   int take();
-  /// Its value, if it is needed still, is in its column.
+  /// Frees a register; its value, if it is live, is stored in its column.
   void leave(int r);
   void forget(int r) {
     int& holds = holds_[static_cast<std::size_t>(r)];
@@ -145,36 +145,36 @@ class Registers : protected Xbyak::CodeGenerator {
   void pin(int r) { pinned_[static_cast<std::size_t>(r)] = true; }
   bool ends(Source const& of) { return of.value >= 0 && value(of.value).read_after(at_) == 0; }
   bool in_register(Source const& of) { return of.value >= 0 && value(of.value).in_register >= 0; }
-  /// In a register, where it stays for those who read it later.
+  /// Loads it into a register, where it stays for later reads.
   Xmm in(Source const& of);
-  /// In a register or, if this step is the last to read it, where it stands. Calls f with it.
+  /// Calls f with the operand in a register or, if this is the last read, in memory.
   template <class F>
   void with(Source const& of, F const& f) {
     if (of.value < 0) return scalar_register_[of.scalar] ? f(*scalar_register_[of.scalar]) : f(scalar(of.scalar));
     if (in_register(of) || !ends(of)) return f(in(of));
     f(column(value(of.value).column));
   }
-  /// The packs of numbers, behind the code.
+  /// Emits the packs of constants after the code.
   void number_packs();
-  /// A function: its values, and the registers that point to its columns and scalars.
+  /// Starts a function: its values, and the registers that point to its columns and scalars.
   void begin(Flow& flow, Xbyak::RegExp const& columns, int column_bytes, Xbyak::Reg64 const& scalars);
-  /// Before a loop: these numbers, in registers that are left.
+  /// Before a loop: loads these constants into free registers.
   void keep(Number from, Number to);
-  /// Before a loop, behind keep_numbers(): scalars of its steps, in registers that are left.
+  /// Before a loop, after keep_numbers(): loads scalars of its steps into free registers.
   void keep_scalars(std::vector<Step> const& steps, std::size_t first, std::size_t end);
 
-  /// Registers that no number nor scalar takes away. An exponential needs the fewest at a time.
+  /// Registers that constants and scalars may not occupy. An exponential needs the fewest.
   static constexpr int fewest_for_values = 9, usual_for_values = 14;
   int for_values_ = usual_for_values;
-  int to_columns_ = 0;  ///< how often a value that is needed still went to its column
+  int to_columns_ = 0;  ///< number of spills of live values
   int width_;
   double least_square_;  ///< GatheredColumns::least_square
   Flow* flow_ = nullptr;
   Xbyak::RegExp columns_;
   int column_bytes_ = 0;
   Xbyak::Reg64 scalars_;
-  std::size_t at_ = 0;  ///< the step that is being written
-  int registers_ = 0;   ///< for values; those above are taken
+  std::size_t at_ = 0;  ///< the step that is being generated
+  int registers_ = 0;   ///< for values; higher ones hold constants and scalars
   std::array<int, 32> holds_{};
   std::array<bool, 32> pinned_{};
   std::array<Xbyak::Label, numbers> number_label_;

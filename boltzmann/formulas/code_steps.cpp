@@ -1,4 +1,4 @@
-// One instruction for each operation; several for exp and for one over a root.
+// One instruction for each operation; several for exp and for the inverse root.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/pack_math.hpp>
 #include <boltzmann/formulas/code_steps.hpp>
@@ -242,7 +242,7 @@ void Steps::operation(Operation operation, Source const& a, Source const& b, Sou
     }
     case Operation::floor:
       return one(a, to, [&](Xmm r, auto const& x) { width_ == 8 ? vrndscalepd(r, x, 9) : vroundpd(r, x, 9); });
-    case Operation::min:  // of which the second is given if one is no number
+    case Operation::min:  // returns the second operand if one is NaN
       return two(b, a, to, [&](Xmm r, Xmm x, auto const& y) { vminpd(r, x, y); });
     case Operation::max:
       return two(b, a, to, [&](Xmm r, Xmm x, auto const& y) { vmaxpd(r, x, y); });

@@ -1,4 +1,4 @@
-// The steps of a program as machine code: which instructions each of them is. Private to this room.
+// The machine code of the steps of a program. Private to this module.
 #pragma once
 
 #include <boltzmann/formulas/code_registers.hpp>
@@ -6,18 +6,18 @@
 #if defined(__x86_64__)
 namespace boltzmann::code {
 
-/// Whether there are instructions for it.
+/// True if there are instructions for it.
 bool is_plain(Step const& step);
 bool are_plain(std::vector<Step> const& steps);
 
-/// Writes steps, those that are plain.
+/// Generates steps that are plain.
 class Steps : protected Registers {
  protected:
   using Registers::Registers;
 
-  /// Before a loop: those numbers that its steps need, in registers, where there are many.
+  /// Before a loop: loads the constants of its steps into registers, if there are many registers.
   void keep_numbers(std::vector<Step> const& steps, std::size_t first, std::size_t end);
-  /// Steps one after the other. What is read at `end` or later is in its column behind them, if `keep`.
+  /// Generates steps in order. With `keep`, values that are read at `end` or later are in their columns afterwards.
   void sequence(std::vector<Step> const& steps, std::size_t first, std::size_t end, bool keep);
 
  private:
@@ -30,13 +30,13 @@ class Steps : protected Registers {
   void two(Source const& a, Source const& b, int to, F const& f);
   template <class F>
   void either_way(Source const& a, Source const& b, int to, F const& f);
-  /// A register for the result: that of an operand that nobody reads any more, or another.
+  /// A register for the result: that of an operand that is not read later, or another.
   int result_beside(Source const& a, Source const& b);
   void fuse(Source a, Source b, Source const& c, int to);
   void reciprocal(Source const& a, int to);
-  /// As rsqrt() of core/pack.hpp.
+  /// Like rsqrt() of core/pack.hpp.
   void inverse_root(Source const& a, int to);
-  /// As exp_in_formulas() of formulas/evaluate.hpp.
+  /// Like exp_in_formulas() of formulas/evaluate.hpp.
   void exponential(Source const& a, int to);
   void operation(Operation operation, Source const& a, Source const& b, Source const& c, int to);
   /// 1 or 0.

@@ -11,13 +11,13 @@
 
 namespace boltzmann::detail {
 
-/// Columns and scalars of one thread. A scalar fills a pack, so that both are read alike.
+/// Columns and scalars of one thread. A scalar fills a pack, so that both are read in the same way.
 template <int W>
 struct Workspace {
   using Real = Pack<double, W>;
   alignas(64) double columns[max_columns * block_pairs];
-  alignas(64) double scalars[(max_scalars + 4) * W];  // those of a list's rows stand behind a program's
-  alignas(64) double nowhere[block_pairs];            // a column for what nobody reads
+  alignas(64) double scalars[(max_scalars + 4) * W];  // those of a list's rows follow the program's
+  alignas(64) double nowhere[block_pairs];            // a column for unused results
 
   double* column(std::size_t which) { return columns + which * block_pairs; }
   void set_scalar(std::size_t which, double value) { store_pack<W>(scalars + which * W, Real(value)); }
@@ -32,7 +32,7 @@ template <int W>
 [[gnu::always_inline]] inline Pack<double, W> scaled_exp(Pack<double, W> x, double shift) {
   using Real = Pack<double, W>;
 #if defined(__AVX512F__)
-  constexpr bool any_power = W == 8;  // times_power_of_two() takes any
+  constexpr bool any_power = W == 8;  // times_power_of_two() accepts any power
 #else
   constexpr bool any_power = false;
 #endif
@@ -45,7 +45,7 @@ template <int W>
   Real const rest = (x - k * exp_ln2_high) - k * exp_ln2_low;
   return exp_of_parts(k + shift, shifted + shift, rest);
 }
-/// As Steps::exponential() of formulas/code_steps.cpp.
+/// Like Steps::exponential() of formulas/code_steps.cpp.
 template <int W>
 [[gnu::always_inline]] inline Pack<double, W> exp_in_formulas(Pack<double, W> x) {
   return scaled_exp(x, 0.0);
@@ -89,13 +89,13 @@ template <int W>
   return result;
 }
 
-/// How far the next pack of an operand is.
+/// The distance to the next pack of an operand.
 template <int W>
 [[gnu::always_inline]] inline std::size_t stride_of(Operand operand) {
   return operand.scalar ? 0 : W;
 }
 
-/// What takes long enough that nothing else counts: one loop for operands of all kinds.
+/// For slow instructions: one loop for operands of all kinds.
 template <int W, class F>
 [[gnu::always_inline]] inline void each(Workspace<W>& work, Step const& step, std::size_t packs, F const& f) {
   double* const to = work.place(step.to);
@@ -105,7 +105,7 @@ template <int W, class F>
     store_pack<W>(to + k * W, f(load_pack<W>(a + k * da), load_pack<W>(b + k * db), load_pack<W>(c + k * dc)));
 }
 
-/// A loop that knows which operands are scalars: these stay in registers, the others share one index.
+/// A loop specialised by which operands are scalars: these stay in registers, the others share one index.
 template <int W, bool scalar_a, bool scalar_b, bool scalar_c, class F>
 [[gnu::always_inline]] inline void each_of(Workspace<W>& work, Step const& step, std::size_t packs, F const& f) {
   double* const to = work.place(step.to);
@@ -119,7 +119,7 @@ template <int W, bool scalar_a, bool scalar_b, bool scalar_c, class F>
   for (; k + 4 * W <= packs * W; k += 4 * W) at(k), at(k + W), at(k + 2 * W), at(k + 3 * W);
   for (; k < packs * W; k += W) at(k);
 }
-/// Short instructions. Where all operands are scalars (of a row) there is one pack, and any of the loops will do.
+/// For fast instructions. If all operands are scalars (of a row) there is one pack, and any of the loops is correct.
 template <int operands, int W, class F>
 [[gnu::always_inline]] inline void quick(Workspace<W>& work, Step const& step, std::size_t packs, F const& f) {
   if constexpr (operands == 3) {
@@ -137,7 +137,7 @@ template <int operands, int W, class F>
   each_of<W, false, false, false>(work, step, packs, f);
 }
 
-/// Of the C library, lane by lane.
+/// By the C library, lane by lane.
 template <int W, class F>
 [[gnu::always_inline]] inline void each_lane(Workspace<W>& work, Step const& step, std::size_t packs, F const& f) {
   each<W>(work, step, packs, [&](Pack<double, W> x, Pack<double, W> y, Pack<double, W>) {
@@ -239,8 +239,8 @@ template <int W>
   }
 }
 
-/// Whether the interpreter, as it is compiled here, rounds as machine code for this width does: a b + c once. Checks of
-/// Clang's undefined behaviour sanitizer come between the product and the sum.
+/// True if the interpreter, as it is compiled here, rounds like machine code of this width: a b + c once. Checks of
+/// Clang's undefined behaviour sanitizer separate the product and the sum.
 #if defined(__has_feature)
 #if __has_feature(undefined_behavior_sanitizer)
 #define BOLTZMANN_ROUNDS_TWICE
@@ -255,14 +255,14 @@ inline constexpr bool rounds_as_machine_code = false;
 #endif
 #undef BOLTZMANN_ROUNDS_TWICE
 
-/// What a program does once for a row.
+/// The steps of a program that are done once for a row.
 template <int W>
 void run_row(Workspace<W>& work, FormulaProgram const& program) {
   if (program.code && program.code->row()) return program.code->row()(work.scalars);
   run_steps<W>(work, program.row_steps.data(), program.row_steps.size(), 1);
 }
-/// Steps of an interpreted program, behind those of single columns, that whoever writes column `which` may do at once,
-/// with lead(): the divider works while numbers are gathered.
+/// The number of steps of an interpreted program, after those of single columns, that the code which writes column
+/// `which` may do at once, with lead(): the divider then works while numbers are gathered.
 template <int W>
 std::size_t leading_steps(FormulaProgram const& program, std::size_t which) {
   auto const leads = [&](Step const& step) {
@@ -276,7 +276,7 @@ std::size_t leading_steps(FormulaProgram const& program, std::size_t which) {
     while (end < program.steps.size() && leads(program.steps[end])) ++end;
   return end - begin;
 }
-/// A leading step, of this pack.
+/// A leading step for this pack.
 template <int W>
 [[gnu::always_inline]] inline Pack<double, W> lead(Step const& step, Pack<double, W> a) {
   return step.instruction == Instruction::reciprocal ? Pack<double, W>(1.0 / a)
@@ -284,7 +284,7 @@ template <int W>
                                                      : rsqrt(a);
 }
 
-/// The steps of a program from `first` on, by its machine code where it has some.
+/// The steps of a program from `first` on, by its machine code if it has some.
 template <int W>
 void run_program(Workspace<W>& work, FormulaProgram const& program, std::size_t packs, std::size_t first = 0) {
   if (!program.code) return run_steps<W>(work, program.steps.data() + first, program.steps.size() - first, packs);

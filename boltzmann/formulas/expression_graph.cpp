@@ -23,7 +23,7 @@ constexpr std::size_t max_expressions = 10'000;
 bool is_whole(double x) { return x == std::floor(x); }
 bool is_half(double x) { return is_whole(2 * x) && std::fabs(x) <= 64; }
 
-/// Of numbers.
+/// For numbers.
 double value_of(Operation operation, double a, double b, double c) {
   switch (operation) {
     case Operation::exp:
@@ -102,7 +102,7 @@ double value_of(Kind kind, double constant, std::vector<Term> const& terms, Valu
   return result;
 }
 
-/// Sorted by node, equal ones merged, those with nothing dropped.
+/// Sorted by node, with equal ones merged and zero ones removed.
 std::vector<Term> merged(std::vector<Term> terms) {
   std::stable_sort(terms.begin(), terms.end(), [](Term const& a, Term const& b) { return a.node < b.node; });
   std::vector<Term> result;
@@ -177,7 +177,7 @@ Expression ExpressionGraph::input(std::uint32_t which, bool never_negative) {
   return keep(std::move(node));
 }
 
-/// A sum or a product as it was written, but of numbers alone their value.
+/// A sum or a product as written, except that numbers alone are folded.
 Expression ExpressionGraph::written(Kind kind, double constant, std::vector<Term> const& terms) {
   if (terms.size() == 1 && terms[0].factor == 1 && constant == (kind == Kind::sum ? 0 : 1)) return terms[0].node;
   if (std::all_of(terms.begin(), terms.end(), [&](Term const& term) { return is_number(term.node); }))
@@ -275,7 +275,7 @@ Expression ExpressionGraph::derivative(Expression of, std::uint32_t input) {
   return derive(of, input, known);
 }
 
-/// Of functions of one argument, by that.
+/// For functions of one argument, by that.
 Expression ExpressionGraph::slope_of(Expression of) {
   Operation const operation = nodes_[of].operation;
   Expression const a = nodes_[of].arguments[0], square = product({{a, 2}});
@@ -313,7 +313,7 @@ Expression ExpressionGraph::slope_of(Expression of) {
   }
 }
 
-/// Of an operation, given the derivatives of its arguments.
+/// For an operation, given the derivatives of its arguments.
 Expression ExpressionGraph::derive_operation(Expression of, Expression da, Expression db, Expression dc) {
   Operation const operation = nodes_[of].operation;
   auto const [a, b, c] = nodes_[of].arguments;
@@ -344,7 +344,7 @@ Expression ExpressionGraph::derive_operation(Expression of, Expression da, Expre
   }
 }
 
-/// Whether it is never negative but may be 0, as a sum of squares. Inputs of this kind are above zero in programs.
+/// True if it is never negative but may be 0, like a sum of squares. Inputs of this kind are above zero in programs.
 bool ExpressionGraph::may_vanish(Expression e) const {
   Node const& node = nodes_[e];
   return node.never_negative && node.kind != Kind::input && !(node.kind == Kind::sum && node.number > 0);
@@ -425,7 +425,7 @@ Expression ExpressionGraph::replace(Expression of, std::unordered_map<std::uint3
 
 Expression ExpressionGraph::with_sum(Expression of, std::vector<Term> const& terms, Expression total,
                                      std::unordered_map<Expression, Expression> others) {
-  for (Expression e = 0; e <= of; ++e) {  // what a sum is made of has smaller numbers
+  for (Expression e = 0; e <= of; ++e) {  // operands of a sum have smaller numbers
     Node const node = nodes_[e];
     if (node.kind != Kind::sum) continue;
     double factor = 0;
@@ -469,7 +469,7 @@ Expression ExpressionGraph::share_powers(Expression of, std::unordered_map<Expre
     for (auto& term : terms) term.node = share_powers(term.node, known);
     result = product(terms);
   } else if (node.kind == Kind::sum) {
-    // The power of one base, of one sign, that most terms have; the least of it is taken out of all these.
+    // The powers of each base, by sign, that occur in several terms; the least exponent is factored out of these.
     std::map<std::pair<Expression, bool>, std::pair<int, double>> shared;
     std::vector<std::vector<Term>> factors;
     for (auto const& term : node.terms) {
@@ -518,7 +518,7 @@ double ExpressionGraph::value(Expression of, std::vector<double> const& inputs) 
   return calculation[0];
 }
 
-/// Which nodes these need: operands have smaller numbers than what is made of them.
+/// The nodes that these need: operands have smaller numbers than their users.
 std::vector<bool> ExpressionGraph::needed_by(std::span<Expression const> results) const {
   std::vector<bool> needed(nodes_.size());
   for (auto const e : results) needed[e] = true;

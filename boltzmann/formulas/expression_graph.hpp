@@ -1,4 +1,5 @@
-// Expression graphs: numbers that depend on inputs, each expression once, in a normal form; and their derivatives.
+// Expression graphs: numbers that depend on inputs, with each expression stored once, in a normal form; and their
+// derivatives.
 #pragma once
 
 #include <array>
@@ -11,14 +12,14 @@
 
 namespace boltzmann {
 
-/// The least square of a distance that programs see. Two particles at one place have this one. A law that is finite there
-/// has a value, and its influence, a number times the separation, is zero.
+/// The least square of a distance in programs, used for two coincident particles. A law that is finite there has a
+/// value, and its influence, a number times the separation, is zero.
 inline constexpr double least_square = 1e-280;
 
 /// An expression of a graph.
 using Expression = std::uint32_t;
 
-/// What is neither a sum nor a product.
+/// Operations other than sums and products.
 enum class Operation : std::uint8_t {
   exp,
   log,
@@ -46,21 +47,21 @@ enum class Operation : std::uint8_t {
   select,      ///< select(condition, a, b): a unless the condition is 0
 };
 
-/// How many arguments an operation has.
+/// The number of arguments of an operation.
 int arguments_of(Operation operation);
 
-/// How expressions are kept. Normal: equal terms and powers merged, for derivatives and fast programs. As written: in the
-/// order of the text, so that values are those of the same expression in C++, to the last bit.
+/// The form of expressions. Normal: equal terms and powers merged, for derivatives and fast programs. As written: in
+/// the order of the text, so that values are those of the same expression in C++, to the last bit.
 enum class Form : std::uint8_t { normal, as_written };
 
 /// Expressions in normal form: a sum is c + sum c_i x_i, a product is x_1^e_1 x_2^e_2 ... with exponents in halves, and
-/// two expressions of the same form are one. Numbers are folded, equal terms and powers merged; products are not
-/// multiplied out. Error beyond 10,000 expressions. Or, Form::as_written, just as they were made.
+/// equal forms are one expression. Numbers are folded, equal terms and powers merged; products are not expanded. Error
+/// beyond 10,000 expressions. With Form::as_written expressions are kept unchanged.
 class ExpressionGraph {
  public:
   explicit ExpressionGraph(Form form = Form::normal) : form_(form) {}
 
-  /// `node`, times a coefficient in a sum, to an exponent in a product.
+  /// `node`, times a coefficient in a sum, to the power of an exponent in a product.
   struct Term {
     Expression node;
     double factor;
@@ -72,14 +73,14 @@ class ExpressionGraph {
     Operation operation = Operation::exp;
     bool never_negative = false;
     double number = 0;                             ///< its value; the constant of a sum
-    std::uint32_t input = 0;                       ///< which one
+    std::uint32_t input = 0;                       ///< its index
     std::vector<Term> terms;                       ///< of sums and products, by node
     std::array<Expression, 3> arguments{0, 0, 0};  ///< of operations
   };
 
   Expression number(double value);
-  /// Input `which` (counted by the caller). One that is never negative has powers of powers merged; programs take it to be
-  /// above zero.
+  /// Input `which` (numbered by the caller). If it is never negative, powers of powers are merged; programs assume that
+  /// it is above zero.
   Expression input(std::uint32_t which, bool never_negative = false);
   Expression sum(double constant, std::vector<Term> const& terms);
   Expression product(std::vector<Term> const& factors);
@@ -94,15 +95,16 @@ class ExpressionGraph {
   /// a^b; exponents that are multiples of one half become products.
   Expression power(Expression a, Expression b);
 
-  /// By an input. What jumps (floor, comparisons, mod) has the derivative of its pieces. Where a function has a kink its
-  /// slope is 0: abs at 0, and the root of what is never negative (a length) at 0.
+  /// By an input. Functions with jumps (floor, comparisons, mod) have the derivative of their pieces. At a kink the
+  /// slope is 0: abs at 0, and the root of a non-negative value (a length) at 0.
   Expression derivative(Expression of, std::uint32_t input);
-  /// With other expressions for some inputs.
+  /// Substitutes other expressions for some inputs.
   Expression replaced(Expression of, std::unordered_map<std::uint32_t, Expression> const& inputs);
-  /// With `total` wherever a sum has all of these terms, times one common factor; and with other expressions for some.
+  /// Substitutes `total` in every sum that has all of these terms, times one common factor; and other expressions for
+  /// some.
   Expression with_sum(Expression of, std::vector<Term> const& terms, Expression total,
                       std::unordered_map<Expression, Expression> others = {});
-  /// Sums with the powers that their terms share taken out: fewer multiplications, the same value but for rounding.
+  /// Factors common powers out of the terms of sums: fewer multiplications, the same value up to rounding.
   Expression with_common_powers(Expression of);
 
   Node const& node(Expression e) const { return nodes_[e]; }
@@ -110,7 +112,7 @@ class ExpressionGraph {
   bool is_number(Expression e, double value) const { return is_number(e) && nodes_[e].number == value; }
   /// Its value for these inputs.
   double value(Expression of, std::vector<double> const& inputs) const;
-  /// Which inputs they depend on, sorted.
+  /// The inputs that they depend on, sorted.
   std::vector<std::uint32_t> inputs_of(std::span<Expression const> results) const;
   std::vector<std::uint32_t> inputs_of(Expression e) const { return inputs_of(std::span(&e, 1)); }
   std::size_t size() const { return nodes_.size(); }
@@ -134,18 +136,18 @@ class ExpressionGraph {
   std::unordered_map<std::string, Expression> known_;
 };
 
-/// Values of some expressions: each node once, in double, by the functions of the C library. Of a choice both branches are
-/// calculated, and only the chosen one counts.
+/// Values of some expressions: each node once, in double, by the functions of the C library. Both branches of a choice
+/// are calculated, and one is selected.
 class Calculation {
  public:
   Calculation(ExpressionGraph const& graph, std::span<Expression const> results);
   /// For these inputs of the graph.
   void run(std::span<double const> inputs);
-  /// Of result k, after run().
+  /// Result k, after run().
   double operator[](std::size_t k) const { return values_[results_[k]]; }
 
  private:
-  std::vector<ExpressionGraph::Node> nodes_;  // operands before what is made of them
+  std::vector<ExpressionGraph::Node> nodes_;  // operands precede their users
   std::vector<double> values_;
   std::vector<std::size_t> results_;
 };

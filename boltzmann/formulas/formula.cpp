@@ -45,7 +45,7 @@ CollectiveFormula::CollectiveFormula(std::string_view text, NamesInFormula names
   }
   if (!std::all_of(outside.begin(), outside.end(), is_common))
     throw FormulaError(0, "for many particles a mean(...), sum(...), min(...) or max(...) is needed");
-  // A sum stands a level above those that stand in it.
+  // A sum is one level above the sums inside it.
   std::vector<std::size_t> level_of(sums.next_input, 0);
   std::vector<std::vector<ParticleSum>> levels;
   for (auto const& sum : sums.all) {

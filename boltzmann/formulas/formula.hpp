@@ -1,4 +1,4 @@
-// Formulas: a number (or a vector) from a text and the values of its names, "-sin(2*pi*x)" as a program has it.
+// Formulas: a number (or a vector) from a text and the values of its names, "-sin(2*pi*x)", as in a program.
 #pragma once
 
 #include <boltzmann/formulas/formula_reader.hpp>
@@ -11,24 +11,24 @@
 
 namespace boltzmann {
 
-/// A text that has been read, in double, as the same expression in C++ would be.
+/// A parsed text, evaluated in double like the same expression in C++.
 class Formula {
  public:
-  /// `names` stand for inputs of `graph`, which is one of Form::as_written. FormulaError, with the place, if the text is
-  /// none.
+  /// `names` refer to inputs of `graph`, which must be of Form::as_written. FormulaError, with the place, if the text
+  /// is invalid.
   Formula(std::string_view text, NamesInFormula const& names, int dimension, ExpressionGraph graph);
 
-  /// For these inputs, by number. What follows are the components of a vector.
+  /// For these inputs, by number. For a vector the other components follow.
   double operator()(std::span<double const> inputs) { return calculation_.run(inputs), calculation_[0]; }
   double component(std::size_t k) const { return calculation_[k]; }
   std::size_t components() const { return components_; }
 
   Dimension dimension() const { return dimension_; }
-  /// Whether its value may be a number of this dimension: numbers without units alone may be anything.
+  /// True if its value may have this dimension: pure numbers without units may have any.
   bool fits(Dimension dimension) const { return !checked_ || plain_ || dimension_ == dimension; }
-  /// Whether its value is that of a comparison, or of several that are joined: true or false.
+  /// True if its value is a comparison, or a combination of several: true or false.
   bool is_condition() const { return is_condition_; }
-  /// Which inputs it depends on, sorted.
+  /// The inputs that it depends on, sorted.
   std::vector<std::uint32_t> const& inputs() const { return inputs_; }
 
  private:
@@ -45,12 +45,13 @@ class Formula {
 /// "norm(mean(velocity))/mean(norm(velocity))", and their `number`.
 class CollectiveFormula {
  public:
-  /// `names` as for Formula; `common` inputs are the same for all particles. FormulaError, also where something of one
-  /// particle stands outside of a sum.
+  /// `names` as for Formula; `common` inputs are the same for all particles. FormulaError, also if a quantity of one
+  /// particle is outside a sum.
   CollectiveFormula(std::string_view text, NamesInFormula names, int dimension, ExpressionGraph graph,
                     std::uint32_t inputs, std::vector<std::uint32_t> const& common);
 
-  /// For so many particles; `take(i, inputs)` fills in the inputs of particle i. In their order, by one thread.
+  /// For this number of particles; `take(i, inputs)` fills in the inputs of particle i. Runs in their order, on one
+  /// thread.
   template <class Take>
   void run(std::size_t particles, Take const& take) {
     values_[number_] = static_cast<double>(particles);
@@ -62,7 +63,7 @@ class CollectiveFormula {
       }
       level.end(particles, values_);
     }
-    if (particles > 0) take(0, std::span(values_));  // what is common
+    if (particles > 0) take(0, std::span(values_));  // common inputs
     result_.run(values_);
   }
   double component(std::size_t k) const { return result_[k]; }
@@ -71,7 +72,7 @@ class CollectiveFormula {
   std::vector<std::uint32_t> const& inputs() const { return inputs_; }
 
  private:
-  /// Sums that are found in one pass over the particles.
+  /// Sums that are computed in one pass over the particles.
   struct Level {
     std::vector<ParticleSum> sums;
     Calculation calculation;
@@ -91,26 +92,26 @@ class CollectiveFormula {
   std::vector<double> values_;
 };
 
-/// What may stand in a formula, each name an input or some of them, counted from 0.
+/// The names in a formula, each an input or several, numbered from 0.
 class FormulaInputs {
  public:
   /// `dimension`: of space. Dimensions are checked unless units are reduced.
   explicit FormulaInputs(int dimension = 1, UnitSystem const& units = UnitSystem::reduced());
 
-  /// The next input. Of two with one name the first is meant.
+  /// Adds the next input. Of two with the same name the first is used.
   void add(std::string const& name, Dimension dimension);
-  /// The next inputs, x, y and z of a vector.
+  /// Adds the next inputs, x, y and z of a vector.
   void add_vector(std::string const& name, Dimension dimension);
-  /// A number with a name.
+  /// Defines a named number.
   void define(std::string const& name, double value, Dimension dimension);
-  /// Another formula with a name. FormulaError.
+  /// Defines a named formula. FormulaError.
   void define(std::string const& name, std::string_view text);
   /// Names may have blanks (NamesInFormula::with_blanks).
   void allow_blanks() { names_.with_blanks = true; }
   void check_dimensions(bool wanted) { names_.checked = wanted; }
   bool has(std::string_view name) const { return names_.values.contains(name) || name == "pi"; }
 
-  /// FormulaError, with the place, if the text is no formula.
+  /// FormulaError, with the place, if the text is not a valid formula.
   Formula read(std::string_view text) const { return {text, names_, dimension_, graph_}; }
   /// `common`: inputs that are the same for all particles.
   CollectiveFormula read_collective(std::string_view text, std::vector<std::uint32_t> const& common) const {

@@ -1,4 +1,4 @@
-// The functions that a formula may name: what they are, how exact they are, and what laws make of formulas.
+// The functions of formulas: their definitions, their errors, and how laws use formulas.
 #pragma once
 
 #include <span>
@@ -16,10 +16,10 @@ struct FormulaFunction {
 /// By name. Errors are those of programs (laws, rates); tests/formulas/formula_accuracy_test.cpp measures them.
 std::span<FormulaFunction const> formula_function_table();
 
-/// The function of this name; null: there is none.
+/// The function of this name; null if there is none.
 FormulaFunction const* formula_function(std::string_view name);
 
-/// What is the same for all formulas, a sentence or two each, for `bzm show formulas` and the guide.
+/// Rules for all formulas, a sentence or two each, for `bzm show formulas` and the guide.
 inline constexpr std::string_view formula_rules[] = {
     "Conditions, initial fields and diagnoses are calculated as they are written. Laws, rates and materials are "
     "simplified first: equal terms and equal powers are merged. So y/y is 1, y - y and 0*y are 0, and sqrt(y)^2 is y, "

@@ -1,4 +1,4 @@
-// From a graph to steps: which values are needed when, and where they are kept.
+// From a graph to steps: the order of values, and their places.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/formulas/formula_program.hpp>
 
@@ -17,7 +17,7 @@ namespace {
 using Kind = ExpressionGraph::Kind;
 using Term = ExpressionGraph::Term;
 
-/// A value while the program is being written: every step has one of its own.
+/// A value during compilation: every step has one of its own.
 struct Value {
   enum class Place : std::uint8_t { constant, row, column } place = Place::constant;
   std::uint32_t index = 0;
@@ -54,7 +54,7 @@ class Writer {
 
  private:
   Value constant(double number) {
-    if (std::isnan(number)) {  // no key of a map
+    if (std::isnan(number)) {  // not usable as a key of a map
       constants_.push_back(number);
       return {Value::Place::constant, static_cast<std::uint32_t>(constants_.size() - 1)};
     }
@@ -63,7 +63,7 @@ class Writer {
     return {Value::Place::constant, static_cast<std::uint32_t>(place->second)};
   }
 
-  /// What depends on the row alone is a value of the row.
+  /// A step that depends on the row alone gives a row value.
   Value step(Instruction instruction, Operation operation, int operands, Value a, Value b = {}, Value c = {}) {
     auto const place = std::max({a.place, operands > 1 ? b.place : a.place, operands > 2 ? c.place : a.place});
     bool const of_row = place != Value::Place::column;
@@ -76,7 +76,7 @@ class Writer {
       throw Error(fmt::format("the formula is too long: more than {} steps", max_steps));
     return to;
   }
-  /// About so long one waits for a result.
+  /// The approximate latency of a result.
   static int cycles_of(Instruction instruction) {
     switch (instruction) {
       case Instruction::multiply3:
@@ -122,7 +122,7 @@ class Writer {
     return value;
   }
 
-  /// Bases of odd negative powers of a root, and how many read each expression.
+  /// Finds bases of odd negative powers of a root, and counts the uses of each expression.
   void look_through(Expression e) {
     if (!seen_.insert(e).second) return;
     auto const node = graph_.node(e);
@@ -141,8 +141,8 @@ class Writer {
   }
 
   Value sum_of(ExpressionGraph::Node const& node) {
-    // Row values first, so that they are added up once for the row. A product that nobody else reads is added as it is
-    // multiplied, last.
+    // Row values first, so that they are added once for the row. A product with a single use is fused with its
+    // addition, last.
     struct Part {
       Value value;
       double factor;
@@ -207,7 +207,7 @@ class Writer {
     bool const half = exponent != std::floor(exponent);
     int const n = static_cast<int>(std::floor(std::fabs(exponent)));
     if (exponent > 0 && half) {
-      // The inverse root, where it is wanted too, gives the root for one multiplication (but that of zero).
+      // If the inverse root is needed as well, one multiplication gives the root from it (except at zero).
       auto const& node = graph_.node(base);
       bool const is_square = node.kind == Kind::input && node.never_negative && inverse_roots_.contains(base);
       if (is_square) return multiply(whole_power(x, n + 1), unary(Instruction::inverse_root, x));
@@ -245,7 +245,7 @@ class Writer {
   }
 
   Value product_of(std::vector<Term> const& terms) { return multiplied(factors_of(terms)); }
-  /// Constants and row values first, and what is known late last.
+  /// Constants and row values first, and values with high latency last.
   std::vector<Value> factors_of(std::vector<Term> const& terms) {
     std::vector<Value> factors;
     for (auto const& [base, exponent] : terms) factors.push_back(power(base, exponent));
@@ -265,8 +265,8 @@ class Writer {
     return total;
   }
 
-  /// What is done with a gathered column and a number of the row, and with that column nowhere else, comes first. How many
-  /// steps these are, of those that results need.
+  /// Moves steps that combine a gathered column, not used otherwise, with a number of the row to the start. Returns the
+  /// number of these steps, if results need them.
   std::size_t steps_of_one_column_first(std::vector<Value> const& results) {
     Needs const needs = needs_of(results);
     std::vector<int> reads(columns_, 0);
@@ -295,7 +295,7 @@ class Writer {
 
   // ---- From values to places ----
 
-  /// Which values the results need, and the last step that reads each column.
+  /// The values that the results need, and the last step that reads each column.
   struct Needs {
     std::vector<bool> row, column;
     std::vector<std::size_t> last_use;
@@ -333,7 +333,7 @@ class Writer {
     return {step.instruction, step.operation, {}, a, b, c};
   }
 
-  /// Steps that no result needs go; columns are used again when nobody reads them any more.
+  /// Removes steps that no result needs, and reuses columns after their last read.
   FormulaProgram placed(std::vector<Value> const& results, std::size_t of_one_column) {
     FormulaProgram program;
     program.of_one_column = of_one_column;
@@ -366,7 +366,7 @@ class Writer {
     for (auto const result : results) program.results.push_back(place_of(result));
     return program;
   }
-  /// The operands that a step is the last to read: they leave their columns to its result. Inputs stay, for sums.
+  /// The operands that a step is the last to read: their columns are free for its result. Inputs are kept, for sums.
   std::vector<std::uint32_t> ending(Written const& step, std::size_t k, Needs const& needs) const {
     std::vector<std::uint32_t> all;
     Value const operands[] = {step.a, step.b, step.c};

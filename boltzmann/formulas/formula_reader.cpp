@@ -1,4 +1,4 @@
-// A recursive descent over a formula's text, with dimensions checked on the way.
+// A recursive descent over a formula's text, which also checks dimensions.
 #include <boltzmann/core/quantity_text.hpp>
 #include <boltzmann/formulas/formula_functions.hpp>
 #include <boltzmann/formulas/formula_reader.hpp>
@@ -28,7 +28,7 @@ bool is_digit(char c) { return c >= '0' && c <= '9'; }
 bool is_joint(char c) { return c == ' ' || c == '-' || c == '_'; }
 bool is_unit_letter(char c) { return is_letter(c) || static_cast<unsigned char>(c) >= 0x80; }
 
-/// Over many particles.
+/// Reductions over many particles.
 constexpr std::pair<std::string_view, ParticleSum::Kind> sums[] = {{"mean", ParticleSum::Kind::mean},
                                                                    {"sum", ParticleSum::Kind::sum},
                                                                    {"min", ParticleSum::Kind::min},
@@ -56,7 +56,7 @@ class Reader {
   }
 
  private:
-  // ---- From what binds least to what binds most ----
+  // ---- In ascending order of precedence ----
 
   FormulaValue choice() {
     Depth const depth(*this);
@@ -257,13 +257,13 @@ class Reader {
     if (std::size_t const unit = begin_of_unit(); unit < text_.size()) with_unit(result, value, unit);
     return result;
   }
-  /// Where the letters of a unit begin, "s" or behind "1/" as in "0.1 1/s"; the end of the text: there is no unit.
+  /// The start of the letters of a unit, "s" or after "1/" as in "0.1 1/s"; the end of the text if there is no unit.
   std::size_t begin_of_unit() const {
     std::size_t at = at_;
     if (text_.substr(at_).starts_with("1/")) at = text_.find_first_not_of(' ', at_ + 2);
     return at < text_.size() && is_unit_letter(text_[at]) ? at : text_.size();
   }
-  /// The unit that stands behind a number: as many factors as are units and no names of ours.
+  /// Parses the unit after a number: as many factors as are units and not defined names.
   void with_unit(FormulaValue& result, double value, std::size_t first) {
     std::size_t const begin = at_;
     if (stands_name(first) || is_called(first))
@@ -308,14 +308,14 @@ class Reader {
     while (end < text_.size() && is_digit(text_[end])) ++end;
     return end > digits ? end : at;
   }
-  /// Whether one of our names stands there, and no unit.
+  /// True if a defined name is there, and no unit.
   bool stands_name(std::size_t at) const {
     if (names_.with_blanks && spoken_name(at).size > 0) return true;
     std::size_t end = at;
     while (end < text_.size() && (is_letter(text_[end]) || is_digit(text_[end]) || text_[end] == '.')) ++end;
     return names_.values.contains(text_.substr(at, end - at));
   }
-  /// Whether a function with its parenthesis stands there.
+  /// True if a function with its parenthesis is there.
   bool is_called(std::size_t at) const {
     std::size_t end = at;
     while (end < text_.size() && (is_letter(text_[end]) || is_digit(text_[end]))) ++end;
@@ -325,10 +325,10 @@ class Reader {
   }
 
   struct SpokenName {
-    std::size_t size = 0;  // 0: none stands there
+    std::size_t size = 0;  // 0: there is none
     FormulaValue const* value = nullptr;
   };
-  /// The longest of the names that stands at a place, whatever joins its words.
+  /// The longest name at a place, for any separators of its words.
   SpokenName spoken_name(std::size_t at) const {
     SpokenName found;
     for (auto const& [name, value] : names_.values) {
@@ -341,7 +341,7 @@ class Reader {
     }
     return found;
   }
-  /// What somebody may have meant by a name: words that a blank or a '-' joins.
+  /// The phrase that may have been meant as a name: words joined by a blank or a '-'.
   std::string phrase() const {
     std::size_t end = at_ + word().size();
     while (end + 1 < text_.size() && is_joint(text_[end]) && is_letter(text_[end + 1])) {
@@ -543,7 +543,7 @@ class Reader {
     return result;
   }
 
-  // ---- What values may be ----
+  // ---- Checks of values ----
 
   static FormulaValue pure(Expression e) { return {{e}, {}, false, false}; }
   static FormulaValue said(Expression truth) { return {{truth}, {}, false, false, true}; }
@@ -581,7 +581,7 @@ class Reader {
     skip();
     return true;
   }
-  /// The name, the number or the character that stands here.
+  /// The name, the number or the character at this place.
   std::string word() const {
     std::size_t end = at_;
     while (end < text_.size() && (is_letter(text_[end]) || is_digit(text_[end]) || text_[end] == '.')) ++end;

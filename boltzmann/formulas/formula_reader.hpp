@@ -1,4 +1,4 @@
-// From the text of a formula to an expression, its dimension checked.
+// From the text of a formula to an expression, with checks of dimensions.
 #pragma once
 
 #include <boltzmann/core/dimension.hpp>
@@ -16,12 +16,11 @@ namespace boltzmann {
 
 /// A number or a vector in a formula.
 struct FormulaValue {
-  std::vector<Expression> components;  ///< one: a number
+  std::vector<Expression> components;  ///< one component: a number
   Dimension dimension{};
-  bool plain =
-      false;  ///< made of numbers without units alone: it takes the dimension of what stands beside it in a sum
+  bool plain = false;  ///< only pure numbers: in a sum it adapts to the dimension of the other terms
   bool is_vector = false;
-  bool is_truth = false;  ///< of a comparison, or of several that are joined
+  bool is_truth = false;  ///< of a comparison, or a combination of several
 };
 
 /// Values by name, in the order in which they were added.
@@ -44,8 +43,7 @@ class ValuesByName {
   std::list<Entry> entries_;
 };
 
-/// What is found for many particles together, mean(...), sum(...), min(...) or max(...) of one value: in the formula it is
-/// an input.
+/// A reduction over many particles, mean(...), sum(...), min(...) or max(...) of one value: an input of the formula.
 struct ParticleSum {
   enum class Kind { mean, sum, min, max } kind;
   Expression of;
@@ -53,26 +51,27 @@ struct ParticleSum {
 };
 struct ParticleSums {
   std::uint32_t next_input = 0;
-  std::vector<ParticleSum> all;  ///< those that stand in others before them
+  std::vector<ParticleSum> all;  ///< inner ones precede those that contain them
 };
 
-/// What the names of a formula mean. A name may have dots; of a vector `name` also `name.x`, `name.y`, `name.z`.
+/// The meanings of the names in a formula. A name may have dots; a vector `name` also defines `name.x`, `name.y`,
+/// `name.z`.
 struct NamesInFormula {
   ValuesByName values;
-  UnitSystem units;     ///< of the numbers; a reduced one has no units, and no dimension is checked
-  bool checked = true;  ///< whether dimensions are
-  /// Names may have blanks, "kinetic energy", which may be written as '-' or '_', too; of names that begin alike the
-  /// longest one that stands at a place is meant.
+  UnitSystem units;     ///< of the numbers; a reduced one has no units and checks no dimensions
+  bool checked = true;  ///< dimensions are checked
+  /// Names may have blanks, "kinetic energy", also written as '-' or '_'; the longest matching name is used.
   bool with_blanks = false;
-  bool with_parameters = false;  ///< messages say where numbers of one's own are said
-  /// If there is one, what is found for many particles together may stand in the formula, and is added there.
+  bool with_parameters = false;  ///< messages explain where to define parameters
+  /// If not null, the formula may have reductions over many particles, which are appended there.
   ParticleSums* sums = nullptr;
 };
 
-/// An expression of numbers (2, 0.5, 1e-3, "0.1 eV"), names, + - * / ^ (powers: from right to left, before a sign: -x^2 is
-/// -(x^2)), parentheses, comparisons, && || !, a ? b : c, [a, b, c], pi, and the functions that formula_functions() lists.
-/// Logarithms are natural, angles in radians. In 1D a vector is a number, too. FormulaError with the place: an unknown name (and the nearest word), a sum
-/// of different dimensions, a function of what has a dimension. `dimension`: of space, 1 to 3.
+/// An expression of numbers (2, 0.5, 1e-3, "0.1 eV"), names, + - * / ^ (powers: from right to left, before a sign: -x^2
+/// is -(x^2)), parentheses, comparisons, && || !, a ? b : c, [a, b, c], pi, and the functions of formula_functions().
+/// Logarithms are natural, angles in radians. In 1D a vector is a number, too. FormulaError with the place: an unknown
+/// name (and the nearest word), a sum of different dimensions, a function of an argument with a dimension. `dimension`:
+/// of space, 1 to 3.
 FormulaValue read_formula_text(std::string_view text, NamesInFormula const& names, int dimension,
                                ExpressionGraph& graph);
 

@@ -24,13 +24,13 @@ class CodeWriter : public MachineCode, private Steps {
   CodeWriter(FormulaProgram const& program, int width, std::optional<GatheredColumns> const& gathered)
       : Steps(32768 + 1024 * (program.steps.size() + program.row_steps.size()), width,
               gathered ? gathered->least_square : least_square) {
-    // Where a list is written several times its labels have to be known. Behind the code numbers are read faster on
-    // AVX-512: a seventh of Morse's pass.
+    // Labels must be defined before a list that is generated several times. After the code, constants are read faster
+    // on AVX-512, by a seventh of Morse's pass.
     if (width_ == 4) number_packs();
     auto const& steps = program.steps;
     Flow flow(steps, program.columns);
     for (auto const result : program.results) flow.read(result, never);
-    for (auto& value : flow.values) value.in_column = true;  // those that steps write are not there before
+    for (auto& value : flow.values) value.in_column = true;  // except those that steps write
     for (auto const& of : flow.steps) flow.values[static_cast<std::size_t>(of.to)].in_column = false;
     flow_ = &flow;
     std::vector<std::size_t> begins;
@@ -55,7 +55,7 @@ class CodeWriter : public MachineCode, private Steps {
     if (has_list) list_with_numbers(program, *gathered);
     if (width_ == 8) number_packs();
     setProtectModeRE();
-    auto* const code = const_cast<std::uint8_t*>(getCode());  // a function's pointer points to nothing that is const
+    auto* const code = const_cast<std::uint8_t*>(getCode());  // a pointer to a function has no const
     for (std::size_t k = 0; k < pieces_.size(); ++k)
       if (begins[k] != never) pieces_[k].function = reinterpret_cast<Block>(code + begins[k]);
     if (has_row) row_ = reinterpret_cast<Row>(code + row_begin);
@@ -110,13 +110,13 @@ class CodeWriter : public MachineCode, private Steps {
       if (field / static_cast<int>(quad) != blocks.back()) blocks.push_back(field / static_cast<int>(quad));
     return blocks;
   }
-  /// Blocks behind the first have a register each.
+  /// Blocks after the first one have a register each.
   static bool can_gather(GatheredColumns const& gathered) {
     return gathered.dimension < static_cast<int>(quad) && blocks_of(gathered).size() <= 3;
   }
 
-  /// With as few registers for values as they get along with: in the others stand numbers and scalars, which a loop would
-  /// read again for each pack.
+  /// Uses as few registers for values as possible. The others hold constants and scalars, which a loop would otherwise
+  /// reload for each pack.
   void list_with_numbers(FormulaProgram const& program, GatheredColumns const& gathered) {
     std::size_t const begin = getSize();
     for (for_values_ = width_ == 8 ? usual_for_values : fewest_for_values;; ++for_values_) {
@@ -173,7 +173,8 @@ class CodeWriter : public MachineCode, private Steps {
     ret();
   }
 
-  /// Four columns of the rows that the entries at rdi say, in registers of their own; -1 for those that nobody wants.
+  /// Loads four columns of the rows of the entries at rdi, into registers of their own; -1 for those that are not
+  /// wanted.
   std::array<int, quad> transposed(Xbyak::Reg64 const& rows, std::array<bool, quad> const& wanted) {
     int r[6];
     for (auto& each : r) each = take();
@@ -209,12 +210,12 @@ class CodeWriter : public MachineCode, private Steps {
       pinned_[static_cast<std::size_t>(each)] = std::find(result.begin(), result.end(), each) != result.end();
     return result;
   }
-  /// The value of a column from here on, if anybody wants it.
+  /// The value of a column from here on, if it is used.
   void settle(int r, int which) {
     pinned_[static_cast<std::size_t>(r)] = false;
     if (which >= 0) hold(r, which);
   }
-  /// The fields that stand in this block of a row; -1: none that is read.
+  /// The fields in this block of a row; -1: not read.
   std::array<int, quad> fields_in(int block, GatheredColumns const& gathered) const {
     std::array<int, quad> columns{-1, -1, -1, -1};
     for (std::size_t f = 0; f < gathered.fields.size(); ++f)
@@ -230,7 +231,7 @@ class CodeWriter : public MachineCode, private Steps {
     for (std::size_t k = 0; k < quad; ++k)
       if (wanted[k]) settle(r[k], columns[k]);
   }
-  /// q.position - p.position and its square, and the fields that stand behind q's position.
+  /// q.position - p.position and its square, and the fields that follow q's position.
   void separation(FormulaProgram const& program, GatheredColumns const& gathered) {
     std::size_t const D = static_cast<std::size_t>(gathered.dimension);
     auto const fields = fields_in(0, gathered);
@@ -255,7 +256,7 @@ class CodeWriter : public MachineCode, private Steps {
     for (std::size_t c = 0; c < D; ++c) settle(r[c], flow_->at[c]);
     settle(square, flow_->at[D]);
   }
-  /// Sums of what counts: of pairs within the cut-off.
+  /// Adds up the results of pairs within the cut-off.
   template <class Sum>
   void add_up(FormulaProgram const& program, GatheredColumns const& gathered, Sum const& sum) {
     std::size_t const D = static_cast<std::size_t>(gathered.dimension);
@@ -274,7 +275,7 @@ class CodeWriter : public MachineCode, private Steps {
         });
       return;
     }
-    // What does not count is zero.
+    // Other lanes are zero.
     Xmm const mask = reg(take()), counted = reg(take());
     vcmppd(mask, in({flow_->at[D], 0}), scalar(program.scalars + D), 1);
     if (gathered.along) {

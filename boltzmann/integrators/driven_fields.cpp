@@ -1,4 +1,4 @@
-// The stages of each method, for fields that have rates of their own.
+// The stages of each method, for fields with rates of their own.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/kernel_dispatch.hpp>
 #include <boltzmann/core/random.hpp>
@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::size_t field_grain = 2048;
 
-/// The driven fields of all particles as numbers that Gauss-Radau advances.
+/// The driven fields of all particles as numbers for Gauss-Radau.
 class FieldEquations final : public EquationsOfMotion {
  public:
   explicit FieldEquations(AnyEnsemble& ensemble) : ensemble_(ensemble) {
@@ -60,13 +60,14 @@ class FieldEquations final : public EquationsOfMotion {
   std::size_t numbers_ = 0;
 };
 
-/// Fields beside whatever moves: in blocks, within the integrator's own loop where it takes them along.
+/// Advances fields in addition to an integrator, block by block within the integrator's own loop if it accepts a
+/// companion.
 class WithDrivenFields final : public Integrator, private Companion {
  public:
   WithDrivenFields(std::unique_ptr<Integrator> inner, AnyEnsemble& ensemble)
       : inner_(std::move(inner)), ensemble_(ensemble), equations_(ensemble) {
     Field const* velocity = ensemble.find_field("velocity");
-    // Of classes that move by Newton's law alone nobody predicts the velocity.
+    // No integrator predicts the velocity of classes that move by Newton's law alone.
     bool const newton = ensemble.moves_as() == typeid(Newton<1>) || ensemble.moves_as() == typeid(Newton<2>) ||
                         ensemble.moves_as() == typeid(Newton<3>);
     if (method() == Method::leap_frog && newton && velocity) velocity_ = velocity->offset;
@@ -88,7 +89,7 @@ class WithDrivenFields final : public Integrator, private Companion {
   std::vector<Carried> carried() override {
     auto all = inner_->carried();
     std::size_t const size = ensemble_.size();
-    for (auto* numbers : {&start_, &sum_})  // others are of before numbers of particles changed
+    for (auto* numbers : {&start_, &sum_})  // the number of particles has changed
       for (std::size_t k = 0; size > 0 && numbers->size() % size == 0 && k < numbers->size() / size; ++k)
         all.push_back({numbers->data() + k * size, 1});
     std::size_t const D = static_cast<std::size_t>(ensemble_.dimension());
@@ -104,7 +105,7 @@ class WithDrivenFields final : public Integrator, private Companion {
   }
   bool takes_rotations() const override { return inner_->takes_rotations(); }
   void rotate(std::vector<Rotation> rotations) override { inner_->rotate(std::move(rotations)); }
-  /// Those of leap-frog belong to the state between its steps, and stay with the scheme.
+  /// The rates of leap-frog belong to the state between its steps, and remain in the scheme.
   void rates_from(RateSource* source) override {
     bool const fits = arrays_ * ensemble_.rate_stride() <= most_numbers;
     source_ = fits && method() != Method::leap_frog ? source : nullptr;
@@ -132,7 +133,7 @@ class WithDrivenFields final : public Integrator, private Companion {
   }
 
  private:
-  static constexpr std::size_t most_numbers = 48;  // of a particle's rates, for a block of which there is room
+  static constexpr std::size_t most_numbers = 48;  // of a particle's rates, the capacity of a block
 
   void make_room() {
     std::size_t const size = ensemble_.size();
@@ -143,7 +144,7 @@ class WithDrivenFields final : public Integrator, private Companion {
 
   // ---- Blocks ----
 
-  /// Particles from `begin` to before `end`, and where rates stand, those of particle `first` first.
+  /// Particles [begin, end), and their rates; the first rates are those of particle `first`.
   struct Block {
     std::size_t begin, end;
     RatePlaces rates;
@@ -178,7 +179,7 @@ class WithDrivenFields final : public Integrator, private Companion {
     take_periods_off(block);
     if (!finite || found_elsewhere_) find_not_finite(block);
   }
-  /// Of driven field k, or of a diffusion coefficient.
+  /// For driven field k, or for a diffusion coefficient.
   std::size_t components(std::size_t k) const {
     return k < ensemble_.driven().size() ? static_cast<std::size_t>(ensemble_.driven()[k].components) : 1;
   }
@@ -189,7 +190,7 @@ class WithDrivenFields final : public Integrator, private Companion {
 
   // ---- Fields ----
 
-  /// What a stage of the method does with columns of numbers.
+  /// The kernel of this stage of the method.
   FieldKernel kernel() const {
     FieldKernelTable const& kernels =
         for_instruction_set([](auto set) -> FieldKernelTable const& { return field_kernels<decltype(set)::value>(); });
@@ -206,7 +207,7 @@ class WithDrivenFields final : public Integrator, private Companion {
         return kernels.rk4[stage];
     }
   }
-  /// False if a number is not finite then.
+  /// False if a number is not finite afterwards.
   bool advance_fields(Block const& block) {
     std::size_t const size = ensemble_.size();
     constexpr std::size_t together = 16;
@@ -226,7 +227,7 @@ class WithDrivenFields final : public Integrator, private Companion {
     return finite;
   }
 
-  /// A random step of variance 2 D dt; the coefficients stand behind the rates.
+  /// A random step of variance 2 D dt; the coefficients follow the rates.
   void diffuse(Block const& block) {
     std::size_t place = ensemble_.driven().size();
     for (std::size_t k = 0; k < ensemble_.driven().size(); ++k) {
@@ -236,7 +237,7 @@ class WithDrivenFields final : public Integrator, private Companion {
       for (std::size_t i = block.begin; i < block.end; ++i) {
         double const coefficient = coefficients[(i - block.begin) * block.rates.particle];
         double const deviation = std::sqrt(2 * coefficient * std::abs(context_->dt));
-        // Fields of one particle have ids of their own.
+        // Each field of a particle has a stream of its own.
         Stream stream(context_->seed, context_->step, (static_cast<std::uint64_t>(k) << 48) | i,
                       Purpose::field_diffusion);
         double* const x = ensemble_.row(i) + field.offset;
@@ -245,7 +246,7 @@ class WithDrivenFields final : public Integrator, private Companion {
     }
   }
 
-  /// Angles and the like are taken back into their period.
+  /// Wraps angles and other periodic fields into their period.
   void take_periods_off(Block const& block) {
     for (auto const& field : ensemble_.driven()) {
       if (!(field.period > 0)) continue;
@@ -257,7 +258,7 @@ class WithDrivenFields final : public Integrator, private Companion {
     }
   }
 
-  /// The first particle that has a field which is not finite.
+  /// Finds the first particle with a field that is not finite.
   void find_not_finite(Block const& block) {
     for (auto const& field : ensemble_.driven())
       for (int c = 0; c < field.components; ++c) {
@@ -271,9 +272,9 @@ class WithDrivenFields final : public Integrator, private Companion {
   }
 
   // ---- Velocities ----
-  // Leap-frog calculates influences in the middle of its kicks, where the velocity is that of the half step. Rates (and
-  // laws that read it) get the one that the step will end with, as far as the last acceleration tells; the inner method
-  // gets its own back.
+  // Leap-frog calculates influences in the middle of its kicks, where the velocity is that of the half step. Rates, and
+  // laws that read the velocity, get the velocity at the end of the step, predicted by the last acceleration. The inner
+  // method gets its own velocity back.
 
   template <class F>
   void each_velocity(std::size_t begin, std::size_t end, F const& f) {
@@ -308,13 +309,13 @@ class WithDrivenFields final : public Integrator, private Companion {
   struct Number {
     std::size_t offset, rate, component;
   };
-  std::vector<Number> numbers_;   // that are advanced: where they stand in a row, and what their rates are
+  std::vector<Number> numbers_;   // advanced numbers: offsets in a row, and their rates
   std::size_t arrays_ = 0;        // of rates and diffusion coefficients
-  int velocity_ = -1;             // where it stands in a row, if it is predicted
-  bool found_elsewhere_ = false;  // some numbers are found by others than kernels
+  int velocity_ = -1;             // its offset in a row, if it is predicted
+  bool found_elsewhere_ = false;  // some numbers are not advanced by kernels
   RateSource* source_ = nullptr;
   std::vector<double> start_, sum_, velocities_;
-  // Of the stage at hand:
+  // State of the current stage:
   int stage_ = 0;
   StepContext const* context_ = nullptr;
   FieldKernel kernel_ = nullptr;

@@ -7,14 +7,15 @@
 
 namespace boltzmann {
 
-/// The integrator, and beside it the fields of the ensemble that have rates (AnyEnsemble::driven()), by the same method:
-/// euler, rk2 and rk4 as they are, leap-frog by the mean of the rates at both ends of the step, the second of them for
-/// predicted fields and velocities (second order, one evaluation a step), gauss-radau as first-order equations. Fields
-/// that diffuse take a random step of variance 2 D dt for each component at the end of each step. Error if the method
-/// can't do that. The same integrator if there are no such fields.
+/// Wraps an integrator so that it also advances the fields of the ensemble that have rates (AnyEnsemble::driven()), by
+/// the same method. Euler, rk2 and rk4 apply unchanged. Leap-frog uses the mean of the rates at both ends of the step;
+/// the second rate is computed for predicted fields and velocities (second order, one evaluation a step). Gauss-radau
+/// advances them as first-order equations. Fields that diffuse take a random step of variance 2 D dt per component at
+/// the end of each step. Error if the method does not support driven fields. Returns the same integrator if there are
+/// none.
 std::unique_ptr<Integrator> with_driven_fields(std::unique_ptr<Integrator> integrator, AnyEnsemble& ensemble);
 
-/// What a method without stages works on beside what moves: the fields that such an integrator advances; null: none.
+/// The equations of the fields that such an integrator advances, for a method without stages; null: none.
 EquationsOfMotion* equations_of_fields(Integrator& integrator);
 
 }  // namespace boltzmann

@@ -1,5 +1,5 @@
-// Advances fields with rates of their own, for one instruction set. Products and sums are rounded one by one here
-// (CMakeLists.txt), so that numbers that are given have the same bits for all sets.
+// Advances fields with rates of their own, for one instruction set. Products and sums are rounded separately here
+// (CMakeLists.txt), so that constant fields have the same bits for all sets.
 #include <boltzmann/core/kernel_unit.hpp>
 #include <boltzmann/core/pack.hpp>
 #include <boltzmann/integrators/field_kernels.hpp>
@@ -11,7 +11,7 @@
 namespace boltzmann {
 namespace detail {
 
-/// W numbers that stand some doubles apart.
+/// W numbers at a fixed distance.
 template <int W>
 [[gnu::always_inline]] inline Pack<double, W> load_apart(double const* from, std::size_t step) {
   if (step == 1) return load_pack<W>(from);
@@ -24,7 +24,7 @@ typedef double Two __attribute__((vector_size(16), may_alias));
 template <int W>
 using Native = typename Pack<double, W>::Native;
 
-// Numbers of W rows as packs: one of each row, or two that stand side by side, which half as many loads and stores move.
+// Numbers of W rows as packs: one number of each row, or two adjacent ones, which halves the loads and stores.
 
 /// Lanes 0 of a and b, 2 of a and b, ...; or lanes 1, 3, ...: from pairs to packs, and back.
 template <int W, bool second, std::size_t... I>
@@ -74,9 +74,8 @@ template <int W>
   (std::make_index_sequence<W / 2>{});
 }
 
-/// f(x, start, sum, rate) for W particles, from particle k on, and `count` numbers that stand side by side in their rows;
-/// `reads` tells whether f asks for x as it was, `sums` whether it keeps a sum. NaN where a number is not finite then, else
-/// zero.
+/// f(x, start, sum, rate) for W particles, from particle k on, and `count` adjacent numbers of their rows. `reads`: f
+/// reads the old x; `sums`: f keeps a sum. Returns NaN where a number is not finite afterwards, else zero.
 template <bool reads, bool sums, int W, int count, class F>
 [[gnu::always_inline]] inline Pack<double, W> advance_pack(FieldColumn const* columns, std::size_t row, std::size_t k,
                                                            F const& f) {
@@ -98,7 +97,7 @@ template <bool reads, bool sums, int W, int count, class F>
 template <int W, bool reads, bool sums, int count, class F>
 [[gnu::always_inline]] inline bool advance_columns(FieldColumn const* given, std::size_t row, std::size_t particles,
                                                    F const& f) {
-  FieldColumn columns[count];  // of which the compiler knows that no number is stored in them
+  FieldColumn columns[count];  // a local copy, which stores of numbers can't alias
   for (int n = 0; n < count; ++n) columns[n] = given[n];
   Pack<double, W> not_finite = 0.0;
   Pack<double, 1> last = 0.0;
@@ -114,7 +113,7 @@ template <int W, bool reads, bool sums, class F>
   bool finite = true;
   for (std::size_t n = 0; n < block.numbers;) {
     FieldColumn const* const columns = block.columns + n;
-    // Rows begin at multiples of 32 bytes, so that no line of the cache ends between two such numbers.
+    // Rows begin at multiples of 32 bytes, so that two such numbers are in one cache line.
     if (n + 1 < block.numbers && columns[1].x == columns->x + 1 &&
         reinterpret_cast<std::uintptr_t>(columns->x) % 16 == 0) {
       finite = advance_columns<W, reads, sums, 2>(columns, block.row, block.particles, f) && finite;
@@ -132,7 +131,7 @@ bool euler_block(FieldBlock const& block, double dt) {
   return advance_block<W, true, false>(block, [dt](auto& x, auto&, auto&, auto rate) { x += dt * rate; });
 }
 
-/// By the mean of the rates at both ends, of which that of the second is known for what the first has predicted.
+/// By the mean of the rates at both ends; the second is computed for the values that the first predicts.
 template <int W>
 bool leap_frog_begin(FieldBlock const& block, double dt) {
   return advance_block<W, true, false>(block, [dt](auto& x, auto& first, auto&, auto rate) {
@@ -169,7 +168,7 @@ bool rk4_begin(FieldBlock const& block, double dt) {
     x += half * rate;
   });
 }
-/// The second and the third stage, which differ in how far they look.
+/// The second and the third stage, which differ in the length of their trial step.
 template <int W, int stage>
 bool rk4_go_on(FieldBlock const& block, double dt) {
   double const h = stage == 1 ? 0.5 * dt : dt;

@@ -1,4 +1,4 @@
-// Kernels that advance fields with rates of their own by a stage of a method: plain memory and function pointers.
+// Kernels that advance fields with rates of their own by one stage of a method: plain memory and function pointers.
 #pragma once
 
 #include <boltzmann/core/instruction_set.hpp>
@@ -7,13 +7,13 @@
 
 namespace boltzmann {
 
-/// One number of each of some particles that follow each other.
+/// One number of each of some consecutive particles.
 struct FieldColumn {
   double* x;  ///< in the first row
   double const* rate;
   std::size_t rate_step;  ///< doubles from rate to rate
-  double* start;          ///< at the start of the step, side by side; of leap-frog: the rate there
-  double* sum;            ///< of the weighted rates so far, side by side; for rk4
+  double* start;          ///< at the start of the step, contiguous; for leap-frog: the rate there
+  double* sum;            ///< weighted sum of rates so far, contiguous; for rk4
 };
 struct FieldBlock {
   FieldColumn const* columns;
@@ -22,7 +22,7 @@ struct FieldBlock {
   std::size_t particles;
 };
 
-/// Advances all of them through a stage of a step of length dt; false if a number is not finite then.
+/// Advances all of them through a stage of a step of length dt; false if a number is not finite afterwards.
 using FieldKernel = bool (*)(FieldBlock const& block, double dt);
 
 /// By stage.

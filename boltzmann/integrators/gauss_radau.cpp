@@ -1,4 +1,4 @@
-// The method of Everhart, Rein and Spiegel on columns of numbers, whatever they are of.
+// The method of Everhart, Rein and Spiegel on columns of numbers.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/threads.hpp>
 #include <boltzmann/integrators/gauss_radau.hpp>
@@ -14,11 +14,11 @@ namespace {
 
 constexpr std::size_t grain = 4096;
 constexpr int max_iterations = 12, max_attempts = 60;
-constexpr double max_noise = 1e-6;  // by which the last coefficient may change in the last iteration
-/// What the last term is off by where each rate is off by the precision of a double: the sum of |1 / product over k of
-/// (h_i - h_k)| over the nodes i.
+constexpr double max_noise = 1e-6;  // of the last coefficient in the last iteration
+/// The error of the last term if each rate has the relative error of a double: the sum of |1 / product over k of (h_i -
+/// h_k)| over the nodes i.
 constexpr double noise_of_last_term = 11525 * 1.1e-16;
-/// A step is done again that should have been shorter than this part of itself; the next is not longer than its
+/// A step is repeated if its size should have been less than this fraction; the next step grows by at most the
 /// reciprocal (Rein and Spiegel's safety factor).
 constexpr double shortest = 0.25;
 
@@ -37,9 +37,9 @@ struct Coefficients {
   std::array<std::array<double, 7>, 7> newton{};
   /// 1 / (h_i - h_k).
   std::array<std::array<double, 8>, 8> inverse{};
-  /// Of b_k in the integral, and in the integral of the integral, from 0 to each node; the last is the end of the step.
+  /// Factors of b_k in the integral, and in the double integral, from 0 to each node; the last is the end of the step.
   std::array<std::array<double, 7>, 9> once{}, twice{};
-  /// Of b_k in the coefficient m of the polynomial of s + 1: binomials.
+  /// Factors of b_k in coefficient m of the polynomial of s + 1: binomials.
   std::array<std::array<double, 7>, 7> shifted{};
 };
 
@@ -71,7 +71,7 @@ constexpr Coefficients make_coefficients() {
 
 constexpr Coefficients coefficients = make_coefficients();
 
-/// The largest number, and whether all are finite: 0 times any number is 0, or NaN.
+/// The largest number, and whether all are finite: 0 times a finite number is 0, else NaN.
 struct Extent {
   double largest = 0, zero = 0;
   void take(double x) {
@@ -81,7 +81,7 @@ struct Extent {
   bool finite() const { return zero == 0; }
 };
 
-/// Adds to a number that has a low part, which keeps what the sum is rounded by (Kahan).
+/// Adds to a number with a low part, which accumulates the rounding error (Kahan).
 inline void add(double& x, double& low, double dx) {
   double const y = dx + low, sum = x + y;
   low = y - (sum - x);
@@ -109,7 +109,7 @@ void GaussRadau::each_part(int threads, Function const& function) {
   }
 }
 
-/// Reads rows and rates. Low parts belong to numbers that nobody has changed since.
+/// Reads rows and rates. Low parts are kept only for numbers that have not changed since.
 void GaussRadau::take_rows() {
   std::vector<std::size_t>& begin = begin_;
   std::size_t total = 0;
@@ -141,13 +141,13 @@ void GaussRadau::take_rows() {
   }
 }
 
-/// The rows as they are between steps.
+/// Writes the rows at the end of a step.
 void GaussRadau::put_rows() {
   for (std::size_t k = 0; k < parts_.size(); ++k)
     parts_[k].equations->write(x_.data() + begin_[k], v_.data() + begin_[k]);
 }
 
-/// Puts the origin at the particle that feels most, and finds the rates at the start from there.
+/// Sets the origin to the particle with the largest rate, and calculates the rates at the start from there.
 void GaussRadau::choose_origin(std::function<void(double time)> const& influences) {
   std::size_t most = 0;
   for (std::size_t i = 0; i < x_.size(); ++i)
@@ -163,7 +163,7 @@ void GaussRadau::choose_origin(std::function<void(double time)> const& influence
   influences(0);
   ++counts_.evaluations;
   for (std::size_t k = 0; k < parts_.size(); ++k) parts_[k].equations->rates(rates_.data() + begin_[k]);
-  // A law of somebody's own may know where it is.
+  // A user's law may depend on absolute positions; then the origin is not shifted.
   Extent rate, change;
   for (std::size_t i = 0; i < x_.size(); ++i) rate.take(rates_[i]), change.take(rates_[i] - start_rates_[i]);
   if (change.finite() && change.largest <= 1e-3 * rate.largest)
@@ -172,14 +172,14 @@ void GaussRadau::choose_origin(std::function<void(double time)> const& influence
     std::fill(origin_.begin(), origin_.end(), 0.0);
 }
 
-/// What remains is divided evenly where one step would leave a crumb.
+/// Divides the rest evenly if one step would leave a tiny one.
 double GaussRadau::proposal(double remaining) const {
   double const rest = std::abs(remaining);
   if (size_ == 0 || size_ >= rest) return remaining;
   return std::copysign(size_ > 0.5 * rest ? 0.5 * rest : size_, remaining);
 }
 
-/// The polynomial of the last step goes on into the next, with what it was wrong by in the last.
+/// Extrapolates the polynomial of the last step into the next, corrected by the error of the last prediction.
 void GaussRadau::predict_polynomial(double h) {
   double const ratio = last_size_ == 0 ? 0 : h / last_size_;
   std::size_t const total = x_.size();
@@ -198,14 +198,14 @@ void GaussRadau::predict_polynomial(double h) {
   }
 }
 
-/// The same polynomial over a step that is shorter by this factor.
+/// Rescales the polynomial to a step that is shorter by this factor.
 void GaussRadau::shorten_polynomial(double factor) {
   double power = factor;
   for (std::size_t m = 0; m < order; ++m, power *= factor)
     for (std::size_t i = 0; i < x_.size(); ++i) predicted_[m][i] = b_[m][i] = power * b_[m][i];
 }
 
-/// Positions and velocities at a node into the rows; false if one is not finite.
+/// Writes positions and velocities at a node to the rows; false if one is not finite.
 bool GaussRadau::predict(std::size_t node, double h, int threads) {
   double const s = nodes[node] * h;
   auto const& once = coefficients.once[node];
@@ -233,8 +233,8 @@ bool GaussRadau::predict(std::size_t node, double h, int threads) {
   return true;
 }
 
-/// The polynomial goes through the rates at this node, too. Returns the largest change of its last coefficient in parts
-/// of the largest rate, of the worst ensemble; NaN if rates are not finite.
+/// Makes the polynomial pass through the rates at this node, too. Returns the largest change of its last coefficient
+/// relative to the largest rate, for the worst ensemble; NaN if rates are not finite.
 double GaussRadau::correct(std::size_t node, int threads) {
   for (std::size_t k = 0; k < parts_.size(); ++k) parts_[k].equations->rates(rates_.data() + begin_[k]);
   auto const& inverse = coefficients.inverse[node];
@@ -260,7 +260,7 @@ double GaussRadau::correct(std::size_t node, int threads) {
   return worst;
 }
 
-/// Finds the polynomial of a step of length h; false if that is too long for it to be found.
+/// Finds the polynomial of a step of length h; false if the step is too long for convergence.
 bool GaussRadau::attempt(double h, int threads, std::function<void(double time)> const& influences) {
   // g from b: b_m = sum over k of newton[k][m] g_k.
   for (std::size_t i = 0; i < x_.size(); ++i)
@@ -286,21 +286,22 @@ bool GaussRadau::attempt(double h, int threads, std::function<void(double time)>
   return noise_ < max_noise;
 }
 
-/// By how much the next step may be longer than this one, at most 1 / shortest; 0 where positions have too few digits
-/// for the differences on which influences depend.
+/// The factor by which the next step may be longer than this one, at most 1 / shortest. 0 if positions have too few
+/// digits for the differences on which influences depend.
 double GaussRadau::growth(double h) const {
   double error = 0, noise = std::max(noise_, noise_of_last_term), moved = 0;
   for (std::size_t k = 0; k < parts_.size(); ++k) {
     auto const& part = parts_[k];
     bool const second = part.equations->second_order();
-    Extent last, rate, change, motion;  // the rate may have become zero, beyond a cut-off
+    Extent last, rate, change, motion;  // the rate may be zero beyond a cut-off
     for (std::size_t i = begin_[k]; i < begin_[k + 1]; ++i) {
       last.take(b_[order - 1][i]), rate.take(start_rates_[i]), rate.take(rates_[i]);
       change.take(b_[0][i] * (x_[i] - origin_[i]));
       motion.take(h * (second ? v_[i] + 0.5 * h * start_rates_[i] : start_rates_[i]));
     }
     if (rate.largest > 0) error = std::max(error, last.largest / rate.largest);
-    // Positions are rounded; rates change with positions as they do along the step, and the last term with the rates.
+    // Rounding of positions changes rates, in proportion to their change along the step, and rates change the last
+    // term.
     if (rate.largest > 0 && motion.largest > 0)
       noise = std::max(noise, noise_of_last_term * change.largest / (motion.largest * rate.largest));
     if (!std::isfinite(part.max_move)) continue;
@@ -364,7 +365,7 @@ double GaussRadau::step_from_here(double remaining, int threads, std::function<v
     if (found && factor >= shortest) {
       accept(h, threads);
       ++counts_.steps;
-      // A step that was cut short says little of longer ones.
+      // A step that was shortened to end at a given time gives no estimate for longer ones.
       double const next = std::abs(h) * factor;
       if (std::abs(h) >= 0.5 * size_)
         size_ = next;
@@ -382,7 +383,7 @@ double GaussRadau::step_from_here(double remaining, int threads, std::function<v
   fail(h);
 }
 
-/// Names the particle that feels most.
+/// Names the particle with the largest rate.
 void GaussRadau::fail(double h) const {
   std::size_t worst = 0, part = 0;
   for (std::size_t k = 0; k < parts_.size(); ++k)

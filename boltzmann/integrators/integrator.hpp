@@ -1,5 +1,5 @@
-// Integrator: advances the particles of one ensemble through a time step, in stages between which influences are
-// calculated anew.
+// Integrator: advances the particles of one ensemble through a time step, in stages; influences are recalculated
+// between stages.
 #pragma once
 
 #include <boltzmann/core/words.hpp>
@@ -20,8 +20,8 @@ namespace boltzmann {
 class AnyEnsemble;
 class Division;
 
-/// How an ensemble is advanced. The orders hold where all ensembles that influence each other have the same method;
-/// otherwise the result is first order in the step.
+/// The method that advances an ensemble. The orders hold if all ensembles that influence each other have the same
+/// method; otherwise the result is of first order in the step.
 enum class Method {
   euler,
   leap_frog,  ///< kick, drift, kick (velocity Verlet); the second kick is solved for the velocity if forces depend on it
@@ -31,15 +31,15 @@ enum class Method {
   random_walk,  ///< Eq 3.13
   deactivate,
   symplectic_4,  ///< kicks and drifts of fourth order
-  gauss_radau,   ///< in steps of its own, which a tolerance determines: all ensembles together (gauss_radau.hpp)
+  gauss_radau,   ///< in adaptive steps with a tolerance: all ensembles together (gauss_radau.hpp)
 };
 
 Words<Method> const& method_words();
 std::string to_string(Method method);
 
-/// What a stage did to the positions.
+/// The change of positions by a stage.
 enum class Motion {
-  none,          ///< nothing: the influences are still those of the positions
+  none,          ///< unchanged: influences are still valid
   intermediate,  ///< moved to a point inside the step
   final,         ///< moved to the end of the step
 };
@@ -48,10 +48,10 @@ struct StepContext {
   double dt;
   std::uint64_t step;  ///< number of the step, for random streams
   std::uint64_t seed;
-  double time = 0;  ///< at the end of the step, for what depends on it
+  double time = 0;  ///< at the end of the step, for time-dependent influences
 };
 
-/// The furthest that a particle has moved in the last step, and the first particle that is not finite, if any.
+/// The largest displacement of a particle in the last step, and the first particle that is not finite, if any.
 struct LargestMove {
   static constexpr std::size_t nobody = std::numeric_limits<std::size_t>::max();
   double square = 0;
@@ -77,29 +77,29 @@ struct FixedPoint {
   double position = 0, velocity = 0, force = 0;
 };
 
-/// The numbers of an ensemble that change in time, side by side, for a method that advances all ensembles together:
+/// The numbers of an ensemble that change in time, contiguous, for a method that advances all ensembles together:
 /// either all of them with first derivatives, or positions and velocities with accelerations.
 class EquationsOfMotion {
  public:
   virtual ~EquationsOfMotion() = default;
   virtual AnyEnsemble& ensemble() = 0;
-  /// True for positions with velocities and accelerations; the arrays of velocities are not touched otherwise.
+  /// True for positions with velocities and accelerations; otherwise the arrays of velocities are not used.
   virtual bool second_order() const = 0;
-  /// Of each particle.
+  /// Numbers per particle.
   virtual std::size_t numbers() const = 0;
   virtual void read(double* numbers, double* velocities) = 0;
   virtual void write(double const* numbers, double const* velocities) = 0;
-  /// Their derivatives, from the rows and the influences of now.
+  /// Their derivatives, from the current rows and influences.
   virtual void rates(double* rates) = 0;
 };
 
-/// Goes through the particles with an integrator, in blocks whose rows stay in the first-level cache meanwhile.
+/// Accompanies an integrator through the particles, in blocks whose rows stay in the first-level cache.
 class Companion {
  public:
   virtual ~Companion() = default;
   static constexpr std::size_t most_particles = 64;  ///< of a block
-  /// Calls own(begin, end) once, the integrator's work on these particles; no more than most_particles. On several
-  /// threads, if the integrator has some.
+  /// Calls own(begin, end) once: the integrator's work on these particles, at most most_particles. Called from several
+  /// threads if the integrator has them.
   using Own = std::function<void(std::size_t begin, std::size_t end)>;
   virtual void around(std::size_t begin, std::size_t end, Own const& own) = 0;
 };
@@ -108,52 +108,54 @@ class Integrator {
  public:
   virtual ~Integrator() = default;
   virtual Method method() const = 0;
-  /// Of a step: 2 of leap-frog, 4 of rk4. Influences are calculated anew before each that finds particles moved.
+  /// Stages of a step: 2 of leap-frog, 4 of rk4. Influences are recalculated before each stage that follows a motion.
   virtual int stages() const = 0;
-  /// The part of the step that has passed once stage k is done.
+  /// The fraction of the step that has passed after stage k.
   virtual double time_after(int stage) const = 0;
-  /// Stage k of a step; the ensemble's influence arrays hold the influences at the positions of now.
+  /// Stage k of a step; the ensemble's influence arrays hold the influences at the current positions.
   virtual Motion advance(int stage, StepContext const& context) = 0;
-  /// False if some particles are treated in another way than method() has it.
+  /// False if some particles are not advanced by method().
   virtual bool same_for_all() const { return true; }
-  /// The numbers of those that stay where they are while others move.
+  /// The numbers of particles that rest while others move.
   virtual std::span<std::uint32_t const> resting() const { return {}; }
-  /// Of each particle: the degrees of freedom that rigid bonds take (Mobility::taken); empty: none.
+  /// Per particle: the degrees of freedom that rigid bonds remove (Mobility::taken); empty: none.
   virtual std::span<double const> taken_freedom() const { return {}; }
-  /// Takes from the velocities what rigid bonds forbid, after they were changed from outside.
+  /// Removes velocities along rigid bonds, after other code has changed velocities.
   virtual void settle_velocities() {}
-  /// What it keeps of each particle from one stage of a step to the next, besides the row: so many numbers.
+  /// State per particle, besides the row, that is kept from one stage of a step to the next: `count` numbers each.
   struct Carried {
     double* numbers;
     std::size_t count;
   };
   virtual std::vector<Carried> carried() { return {}; }
-  /// Why it advances all particles on every rank of a team, in one line; empty if each rank advances its share.
+  /// The reason why every rank of a team has to advance all particles, in one line; empty if each rank advances its
+  /// own.
   virtual std::string undivided() const { return ""; }
-  /// From here on shares are advanced (AnyEnsemble::share()); null: all again. For all ranks.
+  /// From here on only this rank's particles are advanced (AnyEnsemble::share()); null: all. For all ranks.
   virtual void divide(Division* /*division*/) {}
-  /// Whether some particles are advanced together, so that one rank must have them (Division::keep_together).
+  /// True if some particles are advanced together, so that they need one owner (Division::keep_together).
   virtual bool has_groups() const { return false; }
-  /// What a method without stages works on, which advances all ensembles together; null for methods of stages.
+  /// The equations for a method without stages, which advances all ensembles together; null for methods with stages.
   virtual EquationsOfMotion* equations_of_motion() { return nullptr; }
-  /// Puts the state on a grid (reversible leap-frog only).
+  /// Rounds the state to a grid (reversible leap-frog only).
   virtual void prepare(FixedPoint const&) {}
 
-  /// True if the particle class says that its influences depend on velocities: the integrator predicts these.
+  /// True if the particle class declares that its influences depend on velocities: the integrator predicts these.
   virtual bool predicts_velocities() const { return false; }
-  /// Between the stages of leap-frog: the velocities of the half step, dimension() numbers a particle, if rows hold
+  /// Between the stages of leap-frog: the velocities of the half step, dimension() numbers a particle, if rows have
   /// predicted ones instead; else null.
   virtual double* half_step_velocities() { return nullptr; }
-  /// Whether velocities are turned by rotate() instead of by a force.
+  /// True if velocities are turned by rotate() instead of by a force.
   virtual bool takes_rotations() const { return false; }
-  /// The rotations of all steps to come, in place of those before.
+  /// Sets the rotations of all following steps; replaces earlier ones.
   virtual void rotate(std::vector<Rotation> /*rotations*/) {}
-  /// The rates of its fields, which it may take (RateSource::take()); null: there are none that could be taken.
+  /// Sets the source of the rates of its fields, which it may move (RateSource::take()); null: none to move.
   virtual void rates_from(RateSource* /*source*/) {}
-  /// Whether it takes the companion along, in the stages to come; null: nobody. Some work on all particles at once.
+  /// True if it accepts a companion for the following stages; null removes it. Integrators that work on all particles
+  /// at once refuse.
   virtual bool accompany(Companion* /*companion*/) { return false; }
 
-  /// Of the last step that was finished (the square of a distance); the next stage 0 begins another.
+  /// The largest move of the last finished step (the square of a distance); the next stage 0 resets it.
   LargestMove const& largest_move() const { return move_; }
   void threads(int count) { threads_ = count; }
 

@@ -1,5 +1,4 @@
-// The methods of integration, each as its textbook has it, on the equations of motion that the particle class gives
-// (P::equations).
+// The methods of integration in their textbook forms, on the equations of motion of the particle class (P::equations).
 #pragma once
 
 #include <boltzmann/core/error.hpp>
@@ -74,8 +73,8 @@ template <class P>
 inline constexpr bool has_own_kicks =
     !std::is_same_v<P, Newton<P::dimension>> && std::is_same_v<typename P::Influence, Vector<P::dimension>>;
 
-/// True if a rate of P, other than that of the position, depends on a field that has such a rate (a friction or a Coriolis
-/// force in the equations of the class). It is tried with numbers.
+/// True if a rate of P, other than that of the position, depends on a field that has such a rate (a friction or a
+/// Coriolis force in the equations of the class). Determined by evaluation.
 template <class P>
 bool kicks_read_what_they_change() {
   static_assert(sizeof(P) % sizeof(double) == 0);
@@ -106,7 +105,7 @@ bool kicks_read_what_they_change() {
   return false;
 }
 
-/// The same for classes of which it is not known.
+/// The same for classes for which it is not known at compile time.
 template <class P>
 bool kicks_are_solved() {
   if constexpr (has_own_kicks<P>) {
@@ -123,7 +122,7 @@ bool kicks_are_solved() {
   return (x + rounding) - rounding;
 }
 
-/// The rows of an ensemble as particles of P, the class that theirs moves as.
+/// The rows of an ensemble as particles of P, the class whose motion applies.
 template <class P>
 class MovingRows {
  public:
@@ -165,10 +164,10 @@ class MethodOf : public Integrator {
     P::equations(p, influence, [&](auto member, auto const&) { rate(member, derivatives.*member); });
   }
 
-  /// Calls function(i, LargestMove&) for every particle of this rank. There is one compiled copy of the loop, for one thread and for
-  /// many: in two copies the compiler may contract a product and a sum in one and not in the other. Numbers of a row
-  /// are written one by one and would be read again in twos: no vectors. What `function` holds by value is in
-  /// registers.
+  /// Calls function(i, LargestMove&) for every particle of this rank. The loop has one compiled instance, for one
+  /// thread and for several: in two instances the compiler may contract a product and a sum differently. The loop is
+  /// not vectorised: numbers of a row are written singly, and vector loads of them would stall. Local copies in
+  /// `function` stay in registers.
   template <class Function>
   void each(Function const& function) {
     auto const own_loop = [&function](Stretch const* first, Stretch const* last)
@@ -206,7 +205,7 @@ class MethodOf : public Integrator {
     for (auto const& part : parts) move_.take(part);
   }
 
-  /// The same loop, block by block, with a companion around each.
+  /// The same loop, block by block, with a companion.
   template <class Loop>
   static LargestMove in_blocks(Companion& companion, Loop const& loop, Stretch const* first, Stretch const* last) {
     LargestMove all;
@@ -222,7 +221,7 @@ class MethodOf : public Integrator {
     return all;
   }
 
-  /// Of an array with an entry for each particle, or none; one of other numbers of particles is of before they changed.
+  /// Registers an array with an entry for each particle, or none; an array of another size is outdated.
   template <class T>
   void carry(std::vector<T>& of_particles, std::vector<Integrator::Carried>& all) const {
     static_assert(sizeof(T) % sizeof(double) == 0);
@@ -275,7 +274,7 @@ class Alternating : public MethodOf<P> {
   double time_after(int) const override { return 1; }
 
  protected:
-  /// increment(x, dx): how a field takes its increment.
+  /// increment(x, dx) applies an increment to a field.
   template <class Increment>
   [[gnu::always_inline]] void kick(std::size_t i, double dt, Increment const& increment) {
     P& p = this->ensemble_[i];
@@ -294,7 +293,7 @@ class Alternating : public MethodOf<P> {
     });
     move.take(norm2(p.position - start), i);
   }
-  /// A kick without the fields that the scheme advances (see Solid); increment(x, dx).
+  /// A kick of the fields that the scheme does not advance (see Solid); increment(x, dx).
   template <class Increment>
   void kick_but_lagging(std::size_t i, double dt, Increment const& increment) {
     bool const completed = this->ensemble_.influence_on(i).is_completed != 0;
@@ -306,8 +305,8 @@ class Alternating : public MethodOf<P> {
       }
     });
   }
-  /// Both halves of the first kick of leap-frog and the drift between them; the second half is a prediction, which
-  /// `predicted` takes. The heat of half a kick is the work at its mean velocity.
+  /// Both halves of the first kick of leap-frog and the drift between them. The second half is a prediction; its
+  /// increments are stored in `predicted`. The heat of half a kick is the work at its mean velocity.
   void kick_before_scheme(std::size_t i, double dt, LargestMove& move, double* predicted, double* half_step) {
     P& p = this->ensemble_[i];
     auto const& influence = this->ensemble_.influence_on(i);
@@ -330,7 +329,7 @@ class Alternating : public MethodOf<P> {
       p.specific_energy = heat;
     }
   }
-  /// The second kick. The heating is brought to the velocity at its end, for the kick that follows, too.
+  /// The second kick. The heating is corrected to the velocity at its end, also for the kick that follows.
   void kick_after_scheme(std::size_t i, double dt, double const* predicted) {
     P& p = this->ensemble_[i];
     auto& influence = this->ensemble_.influence_on(i);
@@ -343,7 +342,7 @@ class Alternating : public MethodOf<P> {
     p.kick = {};
     p.lag = p.ahead = 0;
   }
-  /// Runs the second kick, which must not forget how far the drift went.
+  /// Runs the second kick, and keeps the largest move of the drift.
   template <class Function>
   void each_again(Function const& function) {
     auto const drifted = this->move_;
@@ -352,10 +351,10 @@ class Alternating : public MethodOf<P> {
   }
 };
 
-/// Kicks and drifts in turn, of fourth order where influences depend on positions (and time) only: the method SRKN6b
+/// Alternating kicks and drifts, of fourth order if influences depend on positions (and time) only: the method SRKN6b
 /// of S. Blanes and P. C. Moan, J. Comput. Appl. Math. 142, 313 (2002), Table 3. It is symmetric, so its second half
-/// are the coefficients of the first in the opposite order. The last kick of a step and the first of the next have the
-/// same influences: six evaluations a step.
+/// has the coefficients of the first in reverse order. The last kick of a step and the first of the next have the same
+/// influences: six evaluations a step.
 template <class P>
 class Symplectic4 final : public Alternating<P> {
  public:
@@ -403,7 +402,7 @@ class Symplectic4 final : public Alternating<P> {
   std::vector<decltype(P::position)> start_;
 };
 
-/// What Gauss-Radau works on: positions, velocities and accelerations of all that moves as Newton says; of other
+/// The numbers for Gauss-Radau: positions, velocities and accelerations of classes that move by Newton's law; for other
 /// classes every number that changes in time, and its rate.
 template <class P>
 class GaussRadauMethod final : public MethodOf<P>, public EquationsOfMotion {
@@ -467,10 +466,10 @@ class GaussRadauMethod final : public MethodOf<P>, public EquationsOfMotion {
   static constexpr bool newton = std::is_same_v<P, Newton<P::dimension>>;
 };
 
-/// With rotations (magnetic fields): turn, kick, drift; kick, turn. That is Boris' push, seen from the whole steps.
-/// Where influences depend on what is kicked (P::velocity_dependent), the drift's end is predicted: the second kick
-/// takes the prediction back and adds its own. That keeps the second order. Where the equations of the class themselves
-/// depend on it, the second kick is solved for the fields at its end (see VelocityForces).
+/// With rotations (magnetic fields): turn, kick, drift; kick, turn. That is Boris' push, as seen from the whole steps.
+/// If influences depend on the kicked fields (P::velocity_dependent), fields at the end of the drift are predicted; the
+/// second kick subtracts the prediction and adds its own, which keeps second order. If the equations of the class
+/// themselves depend on these fields, the second kick is solved for the fields at its end (see VelocityForces).
 template <class P>
 class LeapFrog final : public Alternating<P> {
  public:
@@ -479,7 +478,7 @@ class LeapFrog final : public Alternating<P> {
   double* half_step_velocities() override { return half_steps_.empty() ? nullptr : half_steps_.data(); }
   bool takes_rotations() const override { return true; }
   void rotate(std::vector<Rotation> rotations) override { rotations_ = std::move(rotations); }
-  /// Rotations turn all before others are moved.
+  /// Rotations turn all particles before any is moved.
   bool accompany(Companion* companion) override { return rotations_.empty() && MethodOf<P>::accompany(companion); }
   Motion advance(int stage, StepContext const& context) override {
     double const dt = context.dt;
@@ -529,12 +528,12 @@ class LeapFrog final : public Alternating<P> {
  private:
   static constexpr bool predicts = depends_on_velocity<P>;
   Motion end_of_step(double dt) {
-    // In the opposite order, so that the step looks the same backwards. A velocity that is finite stays so.
+    // In reverse order, so that the step is symmetric in time. A finite velocity stays finite.
     for (auto rotation = rotations_.rbegin(); rotation != rotations_.rend(); ++rotation) turn(*rotation, 0.5 * dt);
     return Motion::none;
   }
-  /// x = x_half + (dt/2) rate(x) for all fields that are kicked, by iteration; particles for which that does not end
-  /// count as not finite.
+  /// x = x_half + (dt/2) rate(x) for all kicked fields, by iteration; particles without convergence count as not
+  /// finite.
   void kick_to_solution(double dt) {
     constexpr int most_turns = 200;
     std::size_t const kicked = this->kicked();
@@ -561,12 +560,12 @@ class LeapFrog final : public Alternating<P> {
                 },
                 p.*member, half.*member, derivative);
         });
-        if (turn > 2 && change >= before && change < 1e-12) break;  // rounding
+        if (turn > 2 && change >= before && change < 1e-12) break;  // only rounding is left
       }
       move.take(change < 1e-12 ? norm2(p.velocity) : std::numeric_limits<double>::infinity(), i);
     });
   }
-  /// How many numbers of a particle are kicked.
+  /// The number of kicked numbers of a particle.
   static std::size_t kicked() {
     std::size_t count = 0;
     P const nobody{};
@@ -608,7 +607,7 @@ class ReversibleLeapFrog final : public Alternating<P> {
     double const dt = context.dt;
     auto const of_velocity = [grid = grid_](double& v, double dv) { v += on_grid(dv, grid.velocity); };
     auto const of_position = [grid = grid_](double& x, double dx) { x += on_grid(dx, grid.position); };
-    // Beyond this, numbers are no longer multiples of their quantum.
+    // Beyond this value numbers are no longer multiples of their quantum.
     double const furthest = square(2251799813685248.0 * grid_.position);
     double const fastest = square(2251799813685248.0 * grid_.velocity);
     double const infinite = std::numeric_limits<double>::infinity();
@@ -749,7 +748,7 @@ class RandomWalk final : public Rk2<P> {
   }
 };
 
-/// The rows of an ensemble, moved as class P moves; null where that method can't move it.
+/// Moves the rows of an ensemble like class P; null if the method can't.
 template <class P>
 std::unique_ptr<Integrator> method_of(AnyEnsemble& ensemble, Method method) {
   switch (method) {
@@ -784,7 +783,7 @@ std::unique_ptr<Integrator> method_of(AnyEnsemble& ensemble, Method method) {
   }
   return nullptr;
 }
-// These are in the library.
+// These are instantiated in the library.
 extern template std::unique_ptr<Integrator> method_of<Newton<1>>(AnyEnsemble&, Method);
 extern template std::unique_ptr<Integrator> method_of<Newton<2>>(AnyEnsemble&, Method);
 extern template std::unique_ptr<Integrator> method_of<Newton<3>>(AnyEnsemble&, Method);
@@ -802,8 +801,8 @@ extern template std::unique_ptr<Integrator> method_of<Solid<3>>(AnyEnsemble&, Me
 
 }  // namespace detail
 
-/// How particles of a class are advanced unless told otherwise: the random walk of viscous vortices, leap-frog where
-/// forces act, else the fourth-order Runge-Kutta method.
+/// The default method for particles of a class: the random walk for viscous vortices, leap-frog for forces, else the
+/// fourth-order Runge-Kutta method.
 template <class P>
 constexpr Method usual_method() {
   return detail::walks_at_random<P> ? Method::random_walk : detail::has_velocity<P> ? Method::leap_frog : Method::rk4;
@@ -813,8 +812,8 @@ constexpr Method usual_method() {
 Method usual_method(AnyEnsemble const& ensemble);
 std::unique_ptr<Integrator> usual_integrator(AnyEnsemble& ensemble);
 
-/// The integrator of an ensemble whose rows begin with those of P and that moves as P does. Error if it can't be
-/// advanced that way.
+/// The integrator of an ensemble whose rows begin with those of P and that moves like P. Error if the method can't
+/// advance it.
 template <class P>
 std::unique_ptr<Integrator> make_integrator_as(AnyEnsemble& ensemble, Method method) {
   if (auto integrator = detail::method_of<detail::MovesAs<P>>(ensemble, method)) return integrator;
@@ -827,7 +826,7 @@ std::unique_ptr<Integrator> make_integrator_as(AnyEnsemble& ensemble, Method met
                                            "rk2, rk4 or gauss-radau"));
 }
 
-/// The integrator of an ensemble. Error if its class can't be advanced that way.
+/// The integrator of an ensemble. Error if the method can't advance its class.
 template <class P>
 std::unique_ptr<Integrator> make_integrator(Ensemble<P>& ensemble, Method method) {
   return make_integrator_as<P>(ensemble, method);

@@ -1,4 +1,4 @@
-// The methods for everything that moves as Newton says.
+// The methods for classes that move by Newton's law.
 #include <boltzmann/integrators/methods.hpp>
 
 namespace boltzmann::detail {

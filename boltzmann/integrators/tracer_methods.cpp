@@ -1,4 +1,4 @@
-// The methods for everything that a flow carries along.
+// The methods for classes that move with a flow.
 #include <boltzmann/integrators/methods.hpp>
 
 namespace boltzmann::detail {

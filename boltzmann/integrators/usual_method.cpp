@@ -1,4 +1,4 @@
-// How ensembles are advanced of which nobody said it.
+// Default methods of ensembles.
 #include <boltzmann/integrators/driven_fields.hpp>
 #include <boltzmann/integrators/methods.hpp>
 #include <boltzmann/particles/panel.hpp>
@@ -21,13 +21,13 @@ Usual usual() {
   return {&typeid(P), usual_method<P>(), detail::method_of<P>};
 }
 
-/// Of what never moves.
+/// For particles that never move.
 template <class P>
 std::unique_ptr<Integrator> stay(AnyEnsemble& ensemble, Method method) {
   return std::make_unique<detail::Deactivate<P>>(ensemble, method);
 }
 
-/// Of the class as which the ensemble moves.
+/// For the class like which the ensemble moves.
 Usual const& usual_of(AnyEnsemble const& ensemble) {
   static Usual const all[] = {usual<Newton<1>>(),
                               usual<Newton<2>>(),

@@ -10,7 +10,7 @@
 
 namespace boltzmann {
 
-/// What an angular law returns, law(angle), generic in the number type: the energy, and its derivative by the angle.
+/// The result of an angular law, law(angle), generic in the number type: the energy, and its derivative by the angle.
 template <class Real>
 struct AngularEnergy {
   Real energy;
@@ -128,8 +128,8 @@ struct FourierDihedral {
   }
 };
 
-/// U = stiffness d^2 / 2, d the shortest way from rest_angle to the dihedral: keeps four particles in one plane (an
-/// improper dihedral) or a double bond as it is.
+/// U = stiffness d^2 / 2, d the periodic difference between the dihedral and rest_angle: keeps four particles in one
+/// plane (an improper dihedral), or fixes a double bond.
 struct HarmonicDihedral {
   double stiffness, rest_angle;
 

@@ -1,4 +1,4 @@
-// Laws by energy: the user writes the energy of a pair, the force comes by automatic differentiation.
+// Laws by energy: you write the energy of a pair, and the force follows by automatic differentiation.
 #pragma once
 
 #include <boltzmann/core/dual.hpp>
@@ -13,7 +13,7 @@ namespace detail {
 
 enum class PairEnd { target, source };
 
-/// The position of one end of a pair. All that an energy may do with it is to subtract it from the other one's.
+/// The position of one end of a pair. An energy may only subtract it from the other end's position.
 template <int D, class Real, PairEnd end>
 struct EndPosition {
   Vector<D, Real> at;
@@ -36,7 +36,7 @@ Displacement<D, Real> operator-(EndPosition<D, Real, PairEnd::target> const& p,
   return {q.at - p.at, Real(-1.0)};
 }
 
-/// A particle whose position, and nothing else, carries derivatives: the member shadows that of its class.
+/// A particle of which only the position carries derivatives: this member shadows that of its class.
 template <class P, PairEnd end>
 struct Seeded : P {
   EndPosition<P::dimension, std::remove_cvref_t<decltype(std::declval<P const&>().position[0])>, end> position;
@@ -76,13 +76,12 @@ struct ByEnergy {
 
 /// The pair law whose energy is `energy(p, q)`: it returns Interaction{force, energy} with force on p =
 /// -dU/d(p.position), exactly. Like every law the function is generic (`auto const&`) and is called with packs and with
-/// single particles, in 1D, 2D and 3D, with any class. It may use all that the particles have, and the positions
+/// single particles, in 1D, 2D and 3D, with any class. It may use all fields of the particles, and the positions
 /// through `q.position - p.position` (the minus sign, dot products, components, cross products, sums with other
 /// vectors...). An energy of dot(r, r), norm2(r) or magnitude(r) costs one more multiply-add per operation than the
-/// energy itself; one that looks at components or directions of r costs D more. The energy is one for both: it must be
-/// the same when p and q change places. (Members of the particle class see the plain position; what they compute of it
-/// is taken as constant.) Where the energy is a function of magnitude(r), two particles at one place don't push each
-/// other.
+/// energy itself; one that uses components or directions of r costs D more. The energy must be the same when p and q
+/// are exchanged. (Member functions of the particle class use the plain position; their results count as constant.) If
+/// the energy is a function of magnitude(r), two coincident particles exert no force on each other.
 template <class Energy>
 ByEnergy<Energy> by_energy(Energy energy) {
   return {energy};

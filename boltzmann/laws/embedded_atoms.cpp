@@ -1,4 +1,4 @@
-// Splines of embedded atoms: made of functions or of points, with one set of knots for all.
+// Splines of embedded atoms, from functions or points, with common knots.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/laws/embedded_atoms.hpp>
 #include <boltzmann/laws/parameter.hpp>
@@ -104,7 +104,7 @@ EmbeddedAtoms::EmbeddedAtoms(std::vector<EmbeddedElement> elements, Tabulate con
   Table const& one = densities.front();
   first_ = one.first();
   cutoff_ = one.last();
-  // Before the first interval stands one more, of the straight line on which splines go on from there.
+  // The first interval is preceded by one for the straight line that continues the splines.
   knots_ = one.knots();
   knots_.least = knots_.knot(--knots_.first_row);
   intervals_ = one.intervals() + 1;

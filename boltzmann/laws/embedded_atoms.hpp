@@ -1,5 +1,5 @@
-// Embedded atoms: metals, whose atoms are held by the density that their neighbours make where they are (Daw and Baskes
-// 1984): E = sum_i F(rho_i) + 1/2 sum_ij V(r_ij), rho_i = sum_j rho(r_ij).
+// Embedded atoms: metals, whose cohesion depends on the density of neighbours at each atom (Daw and Baskes 1984): E =
+// sum_i F(rho_i) + 1/2 sum_ij V(r_ij), rho_i = sum_j rho(r_ij).
 #pragma once
 
 #include <boltzmann/core/dual.hpp>
@@ -17,15 +17,15 @@
 
 namespace boltzmann {
 
-/// The energy F of atoms in densities.
+/// The energy F of atoms as a function of the density.
 class Embedding {
  public:
   virtual ~Embedding() = default;
-  /// F and dF/d(density) of each of `size` densities, which are zero or positive; the slope at zero is not asked for.
+  /// F and dF/d(density) of each of `size` densities, which are zero or positive; the slope at zero is not used.
   virtual void at(double const* density, std::size_t size, double* energy, double* slope) const = 0;
 };
 
-/// F as a function of one number, generic in its type: the slope comes by automatic differentiation.
+/// F as a function of one number, generic in its type: the slope follows by automatic differentiation.
 template <class Function>
 class EmbeddingFunction final : public Embedding {
  public:
@@ -42,7 +42,7 @@ class EmbeddingFunction final : public Embedding {
   Function function_;
 };
 
-/// One element: its name, and the energy of its atoms in a density.
+/// One element: its name, and the energy of its atoms as a function of the density.
 struct EmbeddedElement {
   std::string name;
   std::shared_ptr<Embedding const> embedding;
@@ -53,13 +53,14 @@ struct EmbeddedElement {
 struct SuttonChen {
   double epsilon, a, n, m, c;
 };
-/// Those of Gupta with the numbers of Cleri and Rosato (1993): V = 2 A exp(-p (r/r0 - 1)), rho = xi^2 exp(-2 q (r/r0 -
-/// 1)), F = -sqrt(rho).
+/// The laws of Gupta with the parameters of Cleri and Rosato (1993): V = 2 A exp(-p (r/r0 - 1)), rho = xi^2 exp(-2 q
+/// (r/r0 - 1)), F = -sqrt(rho).
 struct Gupta {
   double A, xi, p, q, r0;
 };
 
-/// Where pair energies and densities end: from `switch_from` on they are multiplied by a factor that falls from 1 to 0 with three continuous derivatives. Closer than `first` nothing is tabulated: they go on as straight lines in r^2.
+/// The range of pair energies and densities: from `switch_from` on they are multiplied by a factor that falls from 1 to
+/// 0 with three continuous derivatives. Below `first` they are not tabulated, but continued as straight lines in r^2.
 struct EmbeddedReach {
   double cutoff;
   double switch_from = -1;  ///< negative: 0.9 of the cut-off
@@ -68,8 +69,8 @@ struct EmbeddedReach {
 
 class EmbeddedAtoms {
  public:
-  /// Of one distance, for the elements with these numbers: of a pair energy either order is the same; a density is that
-  /// of b at a.
+  /// A function of the distance, for the elements with these numbers. A pair energy is symmetric in a and b; a density
+  /// is that of b at a.
   using Between = std::function<double(std::size_t a, std::size_t b, double r)>;
 
   /// Several elements. `tolerance`: the error of the splines (TableError::relative). Error as of Table, and if a reach
@@ -87,8 +88,9 @@ class EmbeddedAtoms {
             [&](std::size_t, std::size_t, double r) { return density(r); }, reach, tolerance) {}
   EmbeddedAtoms(SuttonChen const& law, EmbeddedReach const& reach);
   EmbeddedAtoms(Gupta const& law, EmbeddedReach const& reach);
-  /// The tables of a file in the format setfl (eam.alloy, eam.fs: several elements) or funcfl (one), in eV and angstrom, as
-  /// far as their cut-off. The numbers are splined as they stand. Error, "file:line: what is wrong".
+  /// The tables of a file in the format setfl (eam.alloy, eam.fs: several elements) or funcfl (one), in eV and
+  /// angstrom, up to their cut-off. The splines pass through the numbers of the file. Error, "file:line: what is
+  /// wrong".
   static EmbeddedAtoms from_file(std::string const& path, UnitSystem const& units);
 
   std::vector<EmbeddedElement> const& elements() const { return elements_; }
@@ -97,10 +99,10 @@ class EmbeddedAtoms {
   /// The largest of the errors of all splines.
   double error() const { return error_; }
   std::size_t intervals() const { return intervals_; }
-  /// Pair energy and density (of b at a) as splines have them.
+  /// Pair energy and density (of b at a) by the splines.
   double pair_energy(double r, std::size_t a = 0, std::size_t b = 0) const { return value(r, a, b, 1); }
   double density(double r, std::size_t a = 0, std::size_t b = 0) const { return value(r, a, b, 0); }
-  /// A third of the cut-off, about the distance of neighbours.
+  /// A third of the cut-off, approximately the distance of neighbours.
   double length_scale() const { return cutoff_ / 3; }
   EmbeddedTables tables() const;
 
@@ -108,7 +110,7 @@ class EmbeddedAtoms {
   struct alignas(64) Line {
     double c[8];
   };
-  /// A table for two elements, as fine as is asked for.
+  /// A table for two elements, with the requested fineness.
   using Tabulate = std::function<Table(std::size_t a, std::size_t b, PerOctave)>;
 
   EmbeddedAtoms(std::vector<EmbeddedElement> elements, Tabulate const& pair, Tabulate const& density,

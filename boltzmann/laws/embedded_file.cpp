@@ -18,17 +18,17 @@
 namespace boltzmann {
 namespace {
 
-constexpr double hartree_bohr = 27.2 * 0.529;  // eV angstrom: rounded as the writers of such files have it
+constexpr double hartree_bohr = 27.2 * 0.529;  // eV angstrom: rounded as in the writers of such files
 constexpr double most_points = 1e6;
 constexpr std::size_t most_elements = 10, finest_of_files = 1024;
 constexpr double spline_error = 1e-5;  // error of splines through splines
 
-/// Reads the words of a text file, one after the other.
+/// Reads a text file word by word.
 class WordReader {
  public:
   explicit WordReader(std::string path) : path_(std::move(path)), file_(open_text(path_, "file")) {}
 
-  /// What is left of the line, and goes to the next.
+  /// The rest of the line; continues with the next line.
   std::vector<std::string> line(std::string const& what) {
     ++number_;
     if (std::exchange(again_, false)) return last_;
@@ -37,14 +37,14 @@ class WordReader {
       throw Error(fmt::format("{}: the file ends before line {}, {}", path_, number_, what));
     return last_ = words_of(text);
   }
-  /// The words of the next line, which stays the next one.
+  /// The words of the next line, without consuming it.
   std::vector<std::string> peek(std::string const& what) {
     auto words = line(what);
     --number_;
     again_ = true;
     return words;
   }
-  /// Error if more numbers follow, as in files of other potentials (adp); text may.
+  /// Error if more numbers follow, as in files of other potentials (adp); text is allowed.
   void end() {
     std::string text;
     double number = 0;
@@ -55,7 +55,7 @@ class WordReader {
         throw wrong(fmt::format("'{}' follows the last table; eam.alloy, eam.fs and funcfl can be read, adp can't",
                                 quoted(words[0])));
   }
-  /// So many numbers from the next line on, as many on each as there are; what is behind the last is an error.
+  /// Reads `count` numbers from the next lines, any number per line; further words on the last line are an error.
   std::vector<double> numbers(std::size_t count, std::string const& what) {
     std::vector<double> all;
     while (all.size() < count) {
@@ -71,7 +71,7 @@ class WordReader {
   }
   double number(std::string word) const {
     for (char& c : word)
-      if (c == 'D' || c == 'd') c = 'e';  // of Fortran
+      if (c == 'D' || c == 'd') c = 'e';  // exponents of Fortran
     double value = 0;
     char const* const digits = word.data() + (word.starts_with('+') ? 1 : 0);
     auto const [last, error] = std::from_chars(digits, word.data() + word.size(), value);
@@ -101,7 +101,7 @@ class WordReader {
   int number_ = 0;
 };
 
-/// How densities and distances are spaced.
+/// The spacing of densities and distances.
 struct FileSpacing {
   std::size_t densities, distances;
   double density, distance, cutoff;
@@ -124,7 +124,7 @@ FileSpacing read_spacing(WordReader& words) {
   return {static_cast<std::size_t>(n[0]), static_cast<std::size_t>(n[2]), n[1], n[3], n[4]};
 }
 
-/// What stands in a file, in its units.
+/// The contents of a file, in its units.
 struct FileTables {
   FileSpacing spacing;
   std::vector<std::string> names;
@@ -142,7 +142,7 @@ FileTables read_setfl(WordReader& words, std::vector<std::string> const& element
   tables.names.assign(elements.begin() + 1, elements.end());
   tables.spacing = read_spacing(words);
   std::size_t const count = tables.names.size();
-  bool finnis_sinclair = false;  // each element has a density for every element at which it acts
+  bool finnis_sinclair = false;  // each element has a density for every element on which it acts
   for (std::size_t a = 0; a < count; ++a) {
     auto const& name = tables.names[a];
     if (words.line(fmt::format("the atomic number, mass and lattice of {}", name)).size() < 2)
@@ -182,7 +182,7 @@ FileTables read_tables(std::string const& path) {
   };
   auto const letter = [](std::string const& word) { return (word[0] | 32) >= 'a' && (word[0] | 32) <= 'z'; };
   {
-    // What the fourth line of setfl begins with: how many elements there are, and their names.
+    // The fourth line of setfl begins with the number of elements, and their names.
     WordReader words(path);
     for (int k = 0; k < 3; ++k) words.line("a comment, or the head of a table");
     auto const fourth = words.line("the elements, or numbers of a table");
@@ -210,7 +210,7 @@ EmbeddedAtoms EmbeddedAtoms::from_file(std::string const& path, UnitSystem const
   FileTables const tables = read_tables(path);
   double const energy = units(1 * units::electronvolt), length = units(1 * units::angstrom);
   auto const& spacing = tables.spacing;
-  // The last distance that is no further than the cut-off.
+  // The last distance within the cut-off.
   auto const last = std::min(static_cast<std::size_t>(spacing.cutoff / spacing.distance + 1e-6), spacing.distances - 1);
   std::vector<EmbeddedElement> elements;
   for (std::size_t a = 0; a < tables.names.size(); ++a) {
@@ -230,7 +230,7 @@ EmbeddedAtoms EmbeddedAtoms::from_file(std::string const& path, UnitSystem const
     auto const& values = tables.pair[a * (a + 1) / 2 + b];
     return Table(points([&](std::size_t k, double r) { return values[k] / r * energy; }), {}, fineness);
   };
-  // That of b at a.
+  // The density of b at a.
   auto const density = [&](std::size_t a, std::size_t b, PerOctave fineness) {
     auto const& values = tables.density[b][tables.density[b].size() > 1 ? a : 0];
     return Table(points([&](std::size_t k, double) { return values[k]; }), {}, fineness);

@@ -1,4 +1,4 @@
-// The splines of embedded atoms as loops over pairs read them.
+// The splines of embedded atoms in the form that loops over pairs read.
 #pragma once
 
 #include <boltzmann/laws/octave_knots.hpp>
@@ -7,8 +7,8 @@
 
 namespace boltzmann {
 
-/// For each pair of elements (a, b) and interval of r^2 blocks of four coefficients: the density of b at a, the pair
-/// energy and, where there are several elements, the density of a at b and a block that nobody reads.
+/// For each pair of elements (a, b) and interval of r^2 blocks of four coefficients: the density of b at a, and the
+/// pair energy. With several elements they are followed by the density of a at b and an unused block.
 struct EmbeddedTables {
   OctaveKnots knots;
   double const* rows = nullptr;

@@ -9,12 +9,12 @@
 
 namespace boltzmann {
 
-/// Beyond the largest density it goes on as a straight line.
+/// Beyond the largest density it is continued as a straight line.
 class EmbeddingTable final : public Embedding {
  public:
   /// Through energies at densities 0, spacing, 2 spacing, ... Error as of Table.
   EmbeddingTable(std::vector<double> const& energies, double spacing);
-  /// F(density) up to the greatest one. Error as of Table.
+  /// F(density) up to the largest one. Error as of Table.
   EmbeddingTable(std::function<double(double)> const& energy, double greatest);
 
   void at(double const* density, std::size_t size, double* energy, double* slope) const override;

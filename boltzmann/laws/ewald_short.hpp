@@ -1,4 +1,4 @@
-// The near part of Ewald sums: what is left of the Laplace law when every strength hides in a Gaussian cloud.
+// The near part of Ewald sums: the Laplace law between strengths that are screened by Gaussian clouds.
 #pragma once
 
 #include <boltzmann/core/pack.hpp>
@@ -11,8 +11,8 @@ namespace boltzmann {
 
 namespace detail {
 
-/// e^(x^2) erfc(x) for 0 <= x <= 28, by a ratio of polynomials of degree 8 and 9 with positive coefficients that takes
-/// the function's values at 18 points: relative error 5e-15. For doubles and packs.
+/// e^(x^2) erfc(x) for 0 <= x <= 28, by a ratio of polynomials of degree 8 and 9 with positive coefficients that
+/// interpolates the function at 18 points: relative error 5e-15. For doubles and packs.
 template <class Real>
 [[gnu::always_inline]] inline Real quick_scaled_erfc(Real const& x) {
   Real const z = x * x;
@@ -32,8 +32,8 @@ template <class Real>
 
 }  // namespace detail
 
-/// LaplaceLaw between strengths s that stand each in a cloud of strength -s and density ~ exp(-alpha^2 r^2) (transform
-/// exp(-k^2 / 4 alpha^2)): it decays within a few 1/alpha, and what it leaves out is smooth. A pair has the energy
+/// LaplaceLaw between strengths s, each in a cloud of strength -s and density ~ exp(-alpha^2 r^2) (transform exp(-k^2 /
+/// 4 alpha^2)). It decays within a few 1/alpha, and the remainder is smooth. A pair has the energy
 ///   1D (C/2) s s' [exp(-alpha^2 x^2)/(alpha sqrt(pi)) - |x| erfc(alpha |x|)],
 ///   2D (C/4 pi) s s' E1(alpha^2 r^2),
 ///   3D (C/4 pi) s s' erfc(alpha r)/r
@@ -41,8 +41,8 @@ template <class Real>
 ///   1D (C/2) s s' erfc(alpha |x|) sgn x,
 ///   2D (C/2 pi) s s' exp(-alpha^2 r^2) r/r^2,
 ///   3D (C/4 pi) s s' [erfc(alpha r)/r + (2 alpha/sqrt(pi)) exp(-alpha^2 r^2)] r/r^2,
-/// relative errors below 2e-14 for alpha r < 10. C as in LaplaceLaw: 4 pi k for charges, -4 pi G for masses. Not beyond
-/// alpha r = 10^15.
+/// relative errors below 2e-14 for alpha r < 10. C as in LaplaceLaw: 4 pi k for charges, -4 pi G for masses. Not valid
+/// beyond alpha r = 10^15.
 struct EwaldShort {
   static constexpr Symmetry symmetry = Symmetry::antisymmetric;
 

@@ -1,4 +1,4 @@
-// The finitely extensible spring (FENE) that holds the beads of polymer models together.
+// The finitely extensible spring (FENE) between the beads of polymer models.
 #pragma once
 
 #include <boltzmann/core/pack_math.hpp>
@@ -10,9 +10,9 @@
 
 namespace boltzmann {
 
-/// phi(r) = -stiffness max_length^2 / 2 ln(1 - (r / max_length)^2): a spring that can't be stretched to max_length. Beyond
-/// it force and energy are no numbers (the chain is torn, and the run ends). K. Kremer and G. S. Grest, J. Chem. Phys. 92,
-/// 5057 (1990), have stiffness 30 and max_length 1.5 beside a repulsion that keeps beads apart.
+/// phi(r) = -stiffness max_length^2 / 2 ln(1 - (r / max_length)^2): a spring that can't be stretched to max_length.
+/// Beyond it force and energy are NaN: the chain is torn, and the run ends. K. Kremer and G. S. Grest, J. Chem. Phys.
+/// 92, 5057 (1990), use stiffness 30 and max_length 1.5 with a repulsion between beads.
 struct Fene {
   static constexpr Symmetry symmetry = Symmetry::antisymmetric;
   static constexpr bool positions_alone = true;

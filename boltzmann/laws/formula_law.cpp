@@ -1,4 +1,4 @@
-// From the text of a law to programs: names and fields become inputs, energies are differentiated.
+// Compiles the text of a law to programs: names and fields become inputs, energies are differentiated.
 #include <boltzmann/formulas/formula_reader.hpp>
 #include <boltzmann/laws/angular_program.hpp>
 #include <boltzmann/laws/formula_law.hpp>
@@ -14,12 +14,12 @@
 namespace boltzmann {
 namespace {
 
-/// What acts on particles of this ensemble: a force, or the velocity of a flow.
+/// The dimension of the influence on particles of this ensemble: a force, or a velocity of a flow.
 Dimension influence_dimension(AnyEnsemble const& ensemble) {
   return ensemble.find_field("mass") && ensemble.find_field("velocity") ? dimensions::force : dimensions::velocity;
 }
 
-/// An error about what the text of a part means is one of that part.
+/// Attributes an error about the meaning of a text to its part.
 template <class F>
 auto in_part(std::string const& part, F const& f) {
   try {
@@ -192,8 +192,8 @@ class Maker {
 
   Dimension dimension_of(Dimension dimension) const { return names_.checked ? dimension : Dimension{}; }
 
-  /// From p to q, of which either may be the target, and the distance. Inputs are components of q - p seen from the
-  /// target, and their square.
+  /// The separation from p to q, either of which may be the target, and the distance. Inputs are the components of q -
+  /// p as seen from the target, and their square.
   void name_separation(bool is_p) {
     std::uint32_t const D = static_cast<std::uint32_t>(dimension_);
     FormulaValue separation;
@@ -209,7 +209,7 @@ class Maker {
     names_.values["r"] = {{graph_.root(square_)}, dimension_of(dimensions::length), false, false};
   }
 
-  /// If both have one.
+  /// If both have a velocity.
   void name_relative_velocity() {
     auto const p = names_.values.find("p.velocity"), q = names_.values.find("q.velocity");
     if (p == names_.values.end() || q == names_.values.end()) return;
@@ -219,7 +219,8 @@ class Maker {
     names_.values["velocity"] = relative;
   }
 
-  /// What a vector, or a number along the separation, gives the target; a number alone where it is `along`.
+  /// The influence on the target of a vector, or of a number along the separation; `along`: one factor of the
+  /// separation.
   std::vector<Expression> influence_of(FormulaValue const& value, double cutoff, bool& along) {
     Dimension const wanted = influence_dimension(target_);
     need(value, wanted, wanted == dimensions::force ? "a force" : "a velocity", true);
@@ -258,7 +259,7 @@ class Maker {
     return inputs;
   }
 
-  /// What laws from outside may use: x, y, z, fields, time.
+  /// The names in external laws: x, y, z, fields, time.
   std::vector<RowInput> add_names_from_outside(std::uint32_t& time) {
     next_ = 0;
     auto fields = add_fields(target_, "", true);
@@ -285,7 +286,7 @@ class Maker {
                              "an energy moves particles; what changes a field is an influence, which gives its rate");
     return target_.field(law_.changes);
   }
-  /// As many components as space has.
+  /// As many components as space has axes.
   std::vector<Expression> rate_of(Field const& field, FormulaValue const& value) {
     int const number = target_.number_driven(field);
     bool const sum = number >= 0 && target_.driven()[static_cast<std::size_t>(number)].sum;
@@ -368,8 +369,8 @@ class Maker {
       throw FormulaPartError("", 0, fmt::format("{} is needed; this is {}", what, dimension_text(value.dimension)));
   }
 
-  /// With the input that is the square of the distance for norm(separation) and dot(separation, separation): an energy of
-  /// these is one of r, and finite where r is.
+  /// Replaces norm(separation) and dot(separation, separation) by the input that is the square of the distance: then an
+  /// energy of these depends on r only, and is finite where r is.
   Expression by_square(Expression value) {
     std::vector<ExpressionGraph::Term> squares;
     for (std::uint32_t c = 0; c < static_cast<std::uint32_t>(dimension_); ++c)
@@ -381,9 +382,9 @@ class Maker {
     return graph_.with_sum(value, squares, square_, {{squares[0].node, square_}, {there, r}, {back, r}});
   }
 
-  /// Whether the influence grows without bounds as two particles approach each other.
+  /// True if the influence diverges as two particles approach each other.
   bool is_singular(std::vector<Expression> results, bool along) {
-    for (auto& result : results) result = graph_.with_common_powers(result);  // as programs calculate them
+    for (auto& result : results) result = graph_.with_common_powers(result);  // as in programs
     auto const strength = [&](double distance) {
       auto inputs = sample(0, {}, {}).here;
       auto const D = static_cast<std::size_t>(dimension_);
@@ -391,7 +392,7 @@ class Maker {
       for (std::size_t c = 0; c < D; ++c) inputs[c] *= scale;
       inputs[D] = distance * distance;
       for (std::size_t k = D + 1; k < inputs.size(); ++k) inputs[k] = some_number(static_cast<std::uint32_t>(k), 0);
-      double sum = 0;  // NaN if one of them is
+      double sum = 0;  // NaN if any of them is
       for (auto const result : results) sum += std::fabs(graph_.value(result, inputs)) * (along ? distance : 1);
       return sum;
     };
@@ -400,7 +401,7 @@ class Maker {
     return !std::isfinite(there) || there > 10 * strength(near);
   }
 
-  /// On the target: (source - target) 2 dU/ds, and dU/dd where the energy knows directions.
+  /// On the target: (source - target) 2 dU/ds, and dU/dd if the energy depends on the direction.
   std::vector<Expression> forces_of(Expression energy, bool& along) {
     std::uint32_t const D = static_cast<std::uint32_t>(dimension_);
     Expression const factor = graph_.scale(2, graph_.derivative(energy, D));
@@ -416,7 +417,7 @@ class Maker {
     return direct;
   }
 
-  /// What multiplies the separation, if all components are that times the same.
+  /// The common factor of the separation, if all components are that times the separation.
   std::optional<Expression> factor_of_separation(std::vector<Expression> const& components) {
     std::optional<Expression> common;
     for (std::uint32_t c = 0; c < components.size(); ++c) {
@@ -436,7 +437,7 @@ class Maker {
     return common;
   }
 
-  /// An energy or an influence that ends at the cut-off as the law wishes.
+  /// Ends an energy or an influence at the cut-off as the law defines.
   Expression ended(Expression value, double cutoff, bool is_energy) {
     if (law_.at_cutoff == FormulaLaw::AtCutoff::cut) return value;
     if (!std::isfinite(cutoff))
@@ -469,7 +470,7 @@ class Maker {
     return graph_.sum(0, {{value, 1}, {there, -1}, {graph_.multiply(graph_.sum(-cutoff, {{r, 1}}), slope_there), -1}});
   }
 
-  /// Inputs for a pair, and for the same pair seen from the other side.
+  /// Inputs for a pair, and for the same pair with p and q exchanged.
   struct Sample {
     std::vector<double> here, there;
   };
@@ -522,8 +523,7 @@ class Maker {
     return true;
   }
 
-  /// Of these inputs those that the expressions read, but sums: their offsets, and what they are called, added to
-  /// `names`.
+  /// The offsets of those inputs that the expressions read, except sums; appends their names to `names`.
   std::vector<int> choose(std::vector<Expression> const& expressions, std::vector<RowInput> const& inputs,
                           std::vector<std::uint32_t>& names) const {
     std::vector<std::uint32_t> read;
@@ -548,8 +548,7 @@ class Maker {
     }
     return offsets;
   }
-  /// Whether some of these numbers are of velocities, or of fields that have rates of their own: what changes while
-  /// influences stay as they are.
+  /// True if some of these are velocities, or fields with rates of their own, which change while influences are kept.
   static bool reads_changing(AnyEnsemble const& ensemble, std::vector<int> const& offsets) {
     for (auto const& field : ensemble.fields())
       if (field.name == "velocity" || ensemble.number_driven(field) >= 0)

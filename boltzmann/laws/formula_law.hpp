@@ -1,4 +1,4 @@
-// FormulaLaw: a law that somebody types, "4*depth*((sigma/r)^12 - (sigma/r)^6)", as a law like any other.
+// FormulaLaw: a law typed as text, "4*depth*((sigma/r)^12 - (sigma/r)^6)", usable like any other law.
 #pragma once
 
 #include <boltzmann/core/unit_system.hpp>
@@ -19,21 +19,22 @@ struct FormulaParameter {
   Dimension dimension{};
 };
 
-/// A part of a law with a name of its own, `s = "(sigma/r)^6"`; later parts and the law may use it.
+/// A named part of a law, `s = "(sigma/r)^6"`; later parts and the law may use it.
 struct FormulaPart {
   std::string name, text;
 };
 
-/// A law as text. Between two particles it may use r (their distance), separation (q.position - p.position), velocity (of
-/// q relative to p), p.FIELD and q.FIELD for every field of their classes but the position; from outside: x, y, z,
-/// position, time, and the fields by their names. Either it is the energy, of which the influence is the negative
-/// gradient, exactly; or the influence on p itself: a vector, or a number, that pushes p away from q where it is positive.
-/// An influence may change a field of p instead of moving it: it is added to the rate of that field.
+/// A law as text. Between two particles it may use r (their distance), separation (q.position - p.position), velocity
+/// (of q relative to p), p.FIELD and q.FIELD for every field of their classes except the position. An external law may
+/// use x, y, z, position, time, and the fields by their names. The text is either the energy, and the influence is its
+/// exact negative gradient; or the influence on p itself. That is a vector, or a number, which pushes p away from q if
+/// it is positive. An influence may change a field of p instead of moving it: it is added to the rate of that field.
 /// Dimensions are checked unless units are reduced.
 struct FormulaLaw {
   enum class Gives { energy, influence };
-  /// How it ends at a cut-off: as it is there; less its value there (an energy also less its slope there, so that the
-  /// force ends at zero, too); or times a smooth step from 1 to 0 between `switch_from` and the cut-off.
+  /// The end of a law at a cut-off. cut: unchanged. shift: minus its value there; an energy also minus its slope there,
+  /// so that the force ends at zero, too. switched: times a smooth step from 1 to 0 between `switch_from` and the
+  /// cut-off.
   enum class AtCutoff { cut, shift, switched };
 
   Gives gives = Gives::energy;
@@ -41,7 +42,7 @@ struct FormulaLaw {
   std::vector<FormulaParameter> parameters;
   std::vector<FormulaPart> where;
   UnitSystem units = UnitSystem::reduced();
-  std::string changes = {};  ///< the driven field of p that an influence gives a rate to; empty: it moves p
+  std::string changes = {};  ///< the driven field of p whose rate the influence gives; empty: it moves p
   AtCutoff at_cutoff = AtCutoff::cut;
   double switch_from = 0;  ///< 0: nine tenths of the cut-off
 
@@ -54,20 +55,20 @@ struct FormulaLaw {
     return {Gives::influence, std::move(text), std::move(parameters), std::move(where), units, {}, AtCutoff::cut, 0};
   }
 
-  /// Which of the formula's particles the target is: in energies between two ensembles p is of the first one, whoever is
-  /// asked about; an influence acts on p.
+  /// The target's name in the formula. In energies between two ensembles p is of the first one, for both targets; an
+  /// influence always acts on p.
   enum class Target { p, q };
-  /// The influence of `source` on `target` up to a cut-off. FormulaPartError if a text is wrong, an energy is none, or the energy of two
-  /// particles of one ensemble changes when they change places.
+  /// The influence of `source` on `target` up to a cut-off. FormulaPartError if a text is invalid, an energy is
+  /// missing, or the energy of two particles of one ensemble is not symmetric.
   PairProgram between(AnyEnsemble const& target, AnyEnsemble const& source, Target part = Target::p,
                       double cutoff = __builtin_inf()) const;
-  /// From outside.
+  /// The external law.
   ExternalProgram on(AnyEnsemble const& target) const;
 };
 
-/// How the driven fields of a class change, as text: d/dt of each, and the coefficients D of those that take a random
-/// walk, of variance 2 D t for each component. They may use position, x, y, z, time, and every field of the particle by
-/// its name; diffusion coefficients only what does not change by itself. Dimensions are checked unless units are reduced.
+/// The rates of the driven fields of a class, as text: d/dt of each, and the coefficients D of those that take a random
+/// walk, of variance 2 D t per component. They may use position, x, y, z, time, and every field of the particle by its
+/// name; diffusion coefficients only fields without rates. Dimensions are checked unless units are reduced.
 struct FieldRates {
   struct Rate {
     std::string field, text;
@@ -78,7 +79,7 @@ struct FieldRates {
   std::vector<FormulaPart> where = {};
   UnitSystem units = UnitSystem::reduced();
 
-  /// FormulaPartError, whose part is "rate.FIELD" or "diffusion.FIELD", if a text is wrong.
+  /// FormulaPartError, whose part is "rate.FIELD" or "diffusion.FIELD", if a text is invalid.
   RateProgram on(AnyEnsemble const& target) const;
 };
 

@@ -1,4 +1,4 @@
-// What a law returns, and what a law may say about itself.
+// The result of a law, and what a law declares about itself.
 #pragma once
 
 #include <boltzmann/core/vector.hpp>
@@ -8,17 +8,17 @@
 namespace boltzmann {
 
 /// Influence and energy of one pair (or of one particle in an external field), computed together: the physics is
-/// written once, and where only the force is wanted the compiler drops the energy. A law is a function law(p, q) of two
+/// written once, and the compiler removes the energy if only the force is needed. A law is a function law(p, q) of two
 /// particles that returns the influence of q on p: a vector, an Interaction, or any struct of Real.
 template <int D, class Real>
 struct Interaction {
   Vector<D, Real> force;  ///< on p
-  Real energy;            ///< of the pair, zero at infinite distance (or where the law says)
+  Real energy;            ///< of the pair, zero at infinite distance unless the law defines another zero
 };
 template <int D, class Real>
 Interaction(Vector<D, Real>, Real) -> Interaction<D, Real>;
 
-/// Of members in the wrong order.
+/// Rejects members in the wrong order.
 template <int D, class Real>
 requires(D < 0) struct Interaction<D, Real> {
   static_assert(D > 0, "an Interaction is {force, energy}, in this order");
@@ -28,10 +28,10 @@ requires(D < 0) struct Interaction<D, Real> {
 template <int D, class Real>
 Interaction(Real, Vector<D, Real>) -> Interaction<-D, Real>;
 
-/// How law(p, q) and law(q, p) are related. A law says so by `static constexpr Symmetry symmetry`; one that says
-/// nothing is general.
+/// The relation between law(p, q) and law(q, p). A law declares it by `static constexpr Symmetry symmetry`; the default
+/// is general.
 enum class Symmetry {
-  general,        ///< each is computed by itself (the generalised forces of the coupled pendulums)
+  general,        ///< each is computed separately (the generalised forces of the coupled pendulums)
   antisymmetric,  ///< Newton's third law: law(q, p) = -law(p, q)
   one_way,        ///< q influences p, p does not influence q (vortices carry test particles)
 };
@@ -44,7 +44,7 @@ constexpr Symmetry symmetry_of() {
     return Symmetry::general;
 }
 
-/// True for a law whose influence depends on velocities: time-reversible integration refuses it.
+/// True for a law whose influence depends on velocities; time-reversible integration refuses it.
 template <class Law>
 constexpr bool depends_on_velocity() {
   if constexpr (requires { Law::velocity_dependent; })
@@ -53,7 +53,7 @@ constexpr bool depends_on_velocity() {
     return false;
 }
 
-/// True for an external law whose influence is the same wherever a particle is: a uniform field.
+/// True for an external law whose influence does not depend on the position: a uniform field.
 template <class Law>
 constexpr bool is_uniform() {
   if constexpr (requires { Law::uniform; })
@@ -80,8 +80,8 @@ auto one_way(Law law) {
   return detail::Declared<Law, Symmetry::one_way>{law};
 }
 
-/// The length over which a law changes by its own size: a particle that moves further in one step has not seen it.
-/// Infinite if unknown.
+/// The length over which a law changes by its own size; particles should not move further in one step. Infinite if
+/// unknown.
 template <class Law>
 double length_scale_of(Law const& law) {
   if constexpr (requires { law.length_scale(); })

@@ -16,10 +16,10 @@ namespace {
 
 constexpr double negligible = -750;  // exp of it is zero
 constexpr double max_terms = 1e7;    // heat capacities over k above which gamma functions take too long
-constexpr double sharpest = 1e16;    // and above which deviations of energies are lost in their rounding
-constexpr double far = 12;           // standard deviations, beyond which there is 1e-32 of a law
+constexpr double sharpest = 1e16;    // above it, deviations of energies are lost in rounding
+constexpr double far = 12;           // standard deviations; the law has 1e-32 of its mass beyond
 
-/// The points and weights of Gauss and Legendre on (-1, 1): exact for polynomials of degree 2 N - 1.
+/// The points and weights of Gauss-Legendre quadrature on (-1, 1): exact for polynomials of degree 2 N - 1.
 template <int N>
 struct GaussLegendre {
   std::array<double, N> point, weight;
@@ -43,7 +43,7 @@ struct GaussLegendre {
   }
 };
 
-/// alpha [ln(T / T0) - (T - T0) / T0], where the heat capacity is alpha k.
+/// alpha [ln(T / T0) - (T - T0) / T0], for the heat capacity alpha k.
 double exponent_of(double alpha, double temperature, double bath) {
   double const x = (temperature - bath) / bath;
   return alpha * (std::log1p(x) - x);
@@ -62,7 +62,7 @@ InvariantLaw::InvariantLaw(StateLaw const& law, double temperature, double boltz
   if (at_bath > sharpest) {
     sharp_ = std::min(std::sqrt(at_bath), 1e150);
   } else if (law.constant()) {
-    // Sharp laws by panels around the middle, as the gamma functions need more terms the sharper they are.
+    // Sharp laws use panels around the middle, since gamma functions need more terms the sharper they are.
     double const alpha = at_bath, half = alpha > 200 ? far / std::sqrt(alpha) : 0;
     cover(bath_ * (1 - half), bath_ * (1 + half));
   } else {
@@ -105,7 +105,7 @@ void InvariantLaw::cover(double first, double last) {
   high_.others = below;
 }
 
-/// From the top outwards, so that exponents are sums of small numbers. Within a panel the exponent changes by a few
+/// From the maximum outwards, so that exponents are sums of small numbers. Within a panel the exponent changes by a few
 /// units and the temperature by a quarter at most, and there is no point of the table.
 void InvariantLaw::add_panels(double from, double to, double exponent) {
   bool const up = to > from;
@@ -136,7 +136,7 @@ void InvariantLaw::add_panels(double from, double to, double exponent) {
     panels_.push_back(panel);
     t = next;
   }
-  reached = t == to ? exponent : 2 * negligible;  // what lies beyond is nothing
+  reached = t == to ? exponent : 2 * negligible;  // the rest is negligible
 }
 
 /// The exponent at start + t: the integral of Cv(T) (1 / T - 1 / T0) / k, plus that at the start.
@@ -147,7 +147,7 @@ double InvariantLaw::exponent_in(Panel const& panel, double t) const {
          (constant_part * (std::log1p(x) - t / bath_) + panel.slope * t * (1 - (panel.start + 0.5 * t) / bath_)) / k_;
 }
 
-/// Of the density in energies, in units of k T, over temperatures from the start on.
+/// The integral of the density in energies, in units of k T, over temperatures from the start on.
 double InvariantLaw::integral(Panel const& panel, double width) const {
   static GaussLegendre<10> const rule;
   double sum = 0;
@@ -164,7 +164,7 @@ double InvariantLaw::scaled(double temperature, End const& end) const { return e
 InvariantLaw::End InvariantLaw::end(double temperature, double capacity, double exponent, bool low) const {
   double const alpha = capacity / k_;
   End result{temperature, alpha};
-  if (alpha > max_terms) return result;  // far from the bath: nothing
+  if (alpha > max_terms) return result;  // far from the bath: negligible
   double const y = scaled(temperature, result);
   result.log_below = log_lower_gamma(alpha + 1, y);
   result.log_above = log_upper_gamma(alpha + 1, y);

@@ -1,4 +1,4 @@
-// The invariant law of internal energies: how they are distributed in equilibrium with a heat bath.
+// The invariant law of internal energies: their distribution in equilibrium with a heat bath.
 #pragma once
 
 #include <boltzmann/laws/state_law.hpp>
@@ -8,10 +8,11 @@
 
 namespace boltzmann {
 
-/// The distribution of StateLaw::draw, made once for many draws. Its density in eps, exp(s(eps) / k - eps / (k T)), is
-/// highest where the state law has the temperature T of the bath. It is integrated over temperatures, from point to
-/// point of the table by Gauss and Legendre; where the heat capacity is constant it is an incomplete gamma function. Of
-/// lumps with more than 1e16 k only the mean and the variance can be told in double precision: a normal distribution.
+/// The distribution of StateLaw::draw, prepared once for many draws. Its density in eps, exp(s(eps) / k - eps / (k T)),
+/// is highest where the state law has the temperature T of the bath. It is integrated over temperatures, from point to
+/// point of the table by Gauss-Legendre quadrature. Where the heat capacity is constant it is an incomplete gamma
+/// function. For lumps with more than 1e16 k double precision resolves only the mean and the variance: a normal
+/// distribution.
 class InvariantLaw {
  public:
   /// Keeps a reference to the state law. Error if temperature or k is not positive.
@@ -19,22 +20,22 @@ class InvariantLaw {
 
   /// The fraction below an energy.
   double distribution(double energy) const;
-  /// Its inverse, right to about 1e-13. Error if u is not in (0, 1).
+  /// Its inverse, accurate to about 1e-13. Error if u is not in (0, 1).
   double quantile(double u) const;
 
  private:
   /// A range of temperatures, in which the heat capacity is linear and the density smooth.
   struct Panel {
     double start, width;
-    double capacity, slope;  // of the heat capacity: at the start
-    double exponent;         // at the start, zero where it is highest
+    double capacity, slope;  // of the heat capacity, at the start
+    double exponent;         // at the start, zero at the maximum
     double mass = 0, below = 0, above = 0;
   };
-  /// Everything below, or above, a temperature: the heat capacity is constant there.
+  /// The tail below, or above, a temperature: the heat capacity is constant there.
   struct End {
     double temperature = 0, alpha = 0;    // the heat capacity is alpha k
     double log_below = 0, log_above = 0;  // of the gamma distribution's fractions
-    double mass = 0, others = 0;          // of the law: here, and everywhere else
+    double mass = 0, others = 0;          // of the law: in this tail, and everywhere else
   };
 
   double scaled(double temperature, End const& end) const;  // the variable of the gamma function
@@ -47,7 +48,7 @@ class InvariantLaw {
 
   StateLaw const& law_;
   double bath_, k_;
-  double sharp_ = 0;  // temperature over its standard deviation, where the law is sharper than what follows can resolve
+  double sharp_ = 0;  // temperature over its standard deviation, if the law is too sharp for the panels
   double low_exponent_ = 0, high_exponent_ = 0;  // at the ends
   End low_, high_;
   std::vector<Panel> panels_;  // ascending

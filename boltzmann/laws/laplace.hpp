@@ -12,9 +12,9 @@ namespace boltzmann {
 /// and a pair has the energy
 ///   1D -(C/2) s s' |x|,  2D -(C/2 pi) s s' ln r,  3D (C/4 pi) s s'/r.
 /// C = 4 pi k for charges (k = 1 in cgs, 1/(4 pi eps0) in SI), C = -4 pi G for masses. (Listing C.5 differs from its
-/// own mesh by 2 pi in 1D and by 2 in 2D, and C.8 makes masses repel; mesh and multipole schemes use the rule above.)
-/// In 2D particles are rods one length unit long, in 1D sheets of one unit of area. With a softening, r is sqrt(r^2 +
-/// softening^2) (Plummer), and two particles at one place don't push each other.
+/// own mesh by 2 pi in 1D and by 2 in 2D, and C.8 makes masses repel; mesh and multipole schemes use the formulas
+/// above.) In 2D particles are rods one length unit long, in 1D sheets of one unit of area. With a softening, r is
+/// sqrt(r^2 + softening^2) (Plummer), and two coincident particles exert no force on each other.
 struct LaplaceLaw {
   static constexpr Symmetry symmetry = Symmetry::antisymmetric;
 
@@ -52,7 +52,8 @@ struct LaplaceLaw {
 inline constexpr Parameter softening_parameter{"softening", dimensions::length,
                                                "Plummer's length, within which the force is weaker", not_negative, "0"};
 
-/// Charges, as scenarios name their law: force k s s'/r^2 in 3D; k = 1 in cgs, units(constants::coulomb) in any base.
+/// Charges, under the name of their law in scenarios: force k s s'/r^2 in 3D; k = 1 in cgs, units(constants::coulomb)
+/// in any base.
 struct CoulombLaw {
   double k;
   double softening = 0;
@@ -75,7 +76,7 @@ struct CoulombLaw {
   LaplaceLaw law() const { return {4 * pi * k, softening}; }
 };
 
-/// Masses, as scenarios name their law: force G m m'/r^2 in 3D; units(constants::gravitation) in any base.
+/// Masses, under the name of their law in scenarios: force G m m'/r^2 in 3D; units(constants::gravitation) in any base.
 struct GravityLaw {
   double G;
   double softening = 0;

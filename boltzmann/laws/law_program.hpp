@@ -1,4 +1,4 @@
-// Laws that are formulas, ready to be run: programs, and which fields of the particles they read.
+// Laws as compiled formulas: programs, and the fields of the particles that they read.
 #pragma once
 
 #include <boltzmann/formulas/formula_program.hpp>
@@ -10,22 +10,22 @@ namespace boltzmann {
 
 struct PairNumbers;
 
-/// A law between p and q as programs. Their columns are the components of q.position - p.position, its square, and then
-/// these fields of q; the values of a row are these fields of p. A result multiplies q.position - p.position, or there is
-/// one for each of its components; the measuring program has the energy behind it, if there is one.
+/// A law between p and q as programs. Their columns are the components of q.position - p.position, its square, and
+/// these fields of q; the constants of a row are these fields of p. A result multiplies q.position - p.position, or
+/// there is one for each of its components. The measuring program appends the energy, if there is one.
 struct PairProgram {
   FormulaProgram influence, measure;
-  std::vector<int> of_p, of_q;  ///< where fields stand in a row, in doubles; sorted
+  std::vector<int> of_p, of_q;  ///< offsets of fields in a row, in doubles; sorted
   bool along = true;            ///< on the line of centres
   bool has_energy = false;
-  bool antisymmetric = false;  ///< known to obey Newton's third law
+  bool antisymmetric = false;  ///< obeys Newton's third law
   bool velocity_dependent = false;
-  double least_square = boltzmann::least_square;  ///< 0: it is not finite for two particles at one place
+  double least_square = boltzmann::least_square;  ///< 0: it diverges for two coincident particles
   std::shared_ptr<PairNumbers const> numbers;     ///< the same law, one pair at a time
 };
 
-/// An influence from outside. Columns are these fields of a particle; the value of a row is the time. There is a result
-/// for each component, and of the measuring program the energy.
+/// An external influence. Columns are these fields of a particle; the constant of a row is the time. There is a result
+/// for each component; the measuring program gives the energy.
 struct ExternalProgram {
   FormulaProgram influence, measure;
   std::vector<int> of_p;
@@ -34,7 +34,7 @@ struct ExternalProgram {
 };
 
 /// All rates of driven fields, and the diffusion coefficients of those that diffuse. Columns are these fields of a
-/// particle, then these components of sums; the value of a row is the time. Result k is one component of one of them
+/// particle, then these components of sums; the constant of a row is the time. Result k is one component of one of them
 /// (AnyEnsemble::rate()).
 struct RateProgram {
   struct Result {

@@ -40,7 +40,7 @@ struct UniformMagneticField {
     return Interaction{cross(field * -p.charge, p.velocity), decltype(p.charge + p.charge)(0)};
   }
 
-  /// The angular velocity with which this field turns the velocity of p: dv/dt = Omega x v, Omega = -charge B / mass.
+  /// The angular velocity with which this field rotates the velocity of p: dv/dt = Omega x v, Omega = -charge B / mass.
   template <class P>
   auto rotation(P const& p) const {
     return field * (-p.charge / p.mass);

@@ -1,4 +1,4 @@
-// Materials: constitutive relations of smooth particles; from density, energy and gradients to pressure and fluxes.
+// Materials: constitutive relations of smooth particles: pressure and fluxes from density, energy and gradients.
 #pragma once
 
 #include <boltzmann/core/tensor.hpp>
@@ -9,7 +9,7 @@
 
 namespace boltzmann {
 
-/// What the equation of state says of a particle.
+/// The state of a particle by the equation of state.
 struct State {
   double pressure = 0;
   double temperature = 0;
@@ -26,11 +26,11 @@ struct Gradients {
 /// The fluxes of momentum and heat in the frame of the particle, beyond the pressure of its state.
 template <int D>
 struct Fluxes {
-  Tensor<D> pressure;  ///< to be added to the pressure tensor; symmetric
+  Tensor<D> pressure;  ///< added to the pressure tensor; symmetric
   Vector<D> heat;      ///< Q of Eq 3
 };
 
-/// Newton's viscosity and Fourier's conduction. The trace is shared among the D dimensions there are: the stress is 2
+/// Newton's viscosity and Fourier's conduction. The trace is divided by the number of dimensions D: the stress is 2
 /// shear_viscosity (E - (div v / D) I) + bulk_viscosity (div v) I, E the symmetric part of the velocity gradient; the
 /// heat flux is -conductivity grad T.
 struct TransportCoefficients {
@@ -43,8 +43,9 @@ struct TransportCoefficients {
 //
 //   State state(p)                       needed: pressure, temperature, sound speed from p.density, p.specific_energy
 //   TransportCoefficients transport(p)               viscosity and conduction
-//   bool conducts()                      false: the conductivity is zero always
-//   Fluxes<D> fluxes(p, gradients)       strength, and other stress that is no Newtonian viscosity. Gradients do not see
+//   bool conducts()                      false: the conductivity is always zero
+//   Fluxes<D> fluxes(p, gradients)       strength, and other stress that is no Newtonian viscosity. Gradients do not
+//   see
 //                                        velocities that alternate from particle to particle, so such a stress does not
 //                                        damp them
 //   double diffusivity(p)                of momentum or twice that of heat, the larger, in length^2 / time: limits the
@@ -53,7 +54,8 @@ struct TransportCoefficients {
 //   double shear_stiffness(p)            shear modulus that is left, for the hourglass control of solids
 //   double energy(density)               barotropic: the specific energy is this function of the density, and does not
 //                                        evolve
-//   double pressure_by_density2()        P / rho^2 where it is the same for all particles always (P = rho^2 / 2): forces
+//   double pressure_by_density2()        P / rho^2 where it is the same for all particles always (P = rho^2 / 2):
+//   forces
 //                                        then need no density
 //   text, parameters()                   what it is and what its parameters may be (laws/parameter.hpp), for scenarios
 //   void check()                         Error if they don't go together

@@ -1,4 +1,4 @@
-// Mixtures: what two unlike particles have for each other, by mixing rules or by a table of species.
+// Mixtures: laws between unlike particles, by mixing rules or by a table of species.
 #pragma once
 
 #include <boltzmann/core/pack_math.hpp>
@@ -12,21 +12,21 @@
 
 namespace boltzmann {
 
-/// How the parameters of unlike particles follow from those of like ones.
+/// The rule by which parameters of unlike particles follow from those of like particles.
 enum class Mixing {
   lorentz_berthelot,  ///< r0 = (r1 + r2) / 2, depth = sqrt(d1 d2)
   geometric,          ///< r0 = sqrt(r1 r2), depth = sqrt(d1 d2)
   sixth_power,        ///< r0^6 = (r1^6 + r2^6) / 2, depth = sqrt(d1 d2) r1^3 r2^3 / r0^6 (Waldman and Hagler 1993)
 };
 
-/// The law between a particle whose like have the law a and one whose like have the law b.
+/// The law between a particle with the law a among its like and one with the law b.
 LennardJones mix(LennardJones const& a, LennardJones const& b, Mixing rule);
 
 /// Throws Error: the species are 0 to count - 1.
 [[noreturn]] void refuse_species(int a, int b, int count);
 
-/// N numbers for every pair of K species, the same for (a, b) as for (b, a). Numbers that were not set, and those of a
-/// species that is none of 0 ... K-1, are NaN: a law that meets them has no force, and the run stops by saying so.
+/// N numbers for every pair of K species, the same for (a, b) as for (b, a). Numbers that were not set, and those of
+/// invalid species, are NaN: a law with these gives NaN forces, and the run stops with an error.
 template <int K, int N = 1>
 class SpeciesTable {
  public:
@@ -47,7 +47,7 @@ class SpeciesTable {
         if constexpr (in_registers) columns_[n][k] = numbers[n];
       }
   }
-  /// NaN where nothing was set. Error unless 0 <= a, b < K.
+  /// NaN if nothing was set. Error unless 0 <= a, b < K.
   std::array<double, N> get(int a, int b) const {
     std::array<double, N> numbers;
     for (std::size_t n = 0; n < N; ++n) numbers[n] = rows_[index(a, b)].number[n];
@@ -57,17 +57,17 @@ class SpeciesTable {
   /// The numbers of a pair, for laws: table(p.species, q.species), with doubles or packs, of any value.
   template <class Real>
   [[gnu::always_inline]] inline std::array<Real, N> operator()(Real const& a, Real const& b) const {
-    // What concerns `a` alone stays outside of the loop over neighbours.
+    // Depends on `a` alone, so it is computed outside the loop over neighbours.
     auto const known = (a > -0.5) & (a < K - 0.5);
     Real const row = select(known, Real(((a + detail::to_integer) - detail::to_integer) * (K + 2.0)), Real(0.0));
     Real const least = select(known, Real(-1.0), Real(K));
-    // Not min(b, K): where b is NaN, K is taken.
+    // Not min(b, K): for b = NaN this gives K.
     Real const place = row + 1.0 + max(least, min(Real(K), b));
     return at(place);
   }
 
  private:
-  /// A row for each first species: for each second one a number, between two columns of NaN.
+  /// A row for each first species: a number for each second one, between two columns of NaN.
   static constexpr std::size_t entries = static_cast<std::size_t>(K) * (K + 2);
   static constexpr bool in_registers = entries <= 24;
   static constexpr std::size_t index(int a, int b) {
@@ -87,7 +87,7 @@ class SpeciesTable {
     auto const number = detail::bits_of(place + detail::to_integer);
     constexpr auto zero = std::int64_t{0x4338000000000000};
 #if defined(__AVX512F__)
-    if constexpr (W == 8 && in_registers) {  // a permutation of whole registers, which looks at the last bits only
+    if constexpr (W == 8 && in_registers) {  // a permutation of whole registers, which uses the low bits only
       using Native = typename Pack<double, W>::Native;
       for (std::size_t n = 0; n < N; ++n) {
         auto const* const column = reinterpret_cast<Native const*>(columns_[n]);
@@ -118,8 +118,8 @@ class SpeciesTable {
   alignas(64) double columns_[in_registers ? N : 1][in_registers ? (entries + 7) / 8 * 8 : 1];
 };
 
-/// Lennard-Jones among particles of K species (a class with the field `species`, as Species has): the pairs of like
-/// particles are given, those of unlike ones follow from a mixing rule, or are set.
+/// Lennard-Jones among particles of K species (a class with the field `species`, like Species). The laws of like
+/// particles are given; those of unlike ones follow from a mixing rule, or are set.
 template <int K>
 class LennardJonesMixture {
  public:

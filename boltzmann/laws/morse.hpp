@@ -1,4 +1,4 @@
-// The Morse law: a bond that breaks, with a core of finite height.
+// The Morse law: a bond that can break, with a core of finite height.
 #pragma once
 
 #include <boltzmann/core/pack.hpp>
@@ -7,8 +7,8 @@
 
 namespace boltzmann {
 
-/// phi(r) = depth [(1 - e^(-a (r - r0)))^2 - 1]: minimum -depth at r0, stiffness 2 depth a^2 there. Two particles at
-/// one place don't push each other: they have no direction.
+/// phi(r) = depth [(1 - e^(-a (r - r0)))^2 - 1]: minimum -depth at r0, stiffness 2 depth a^2 there. Two coincident
+/// particles exert no force on each other, as they have no direction.
 struct Morse {
   static constexpr Symmetry symmetry = Symmetry::antisymmetric;
   static constexpr bool positions_alone = true;

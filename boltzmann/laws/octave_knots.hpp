@@ -1,4 +1,4 @@
-// Knots of splines in r^2 that are evenly spaced in every doubling of r^2, so that no search is needed between them.
+// Knots of splines in r^2 that are evenly spaced in every octave of r^2, so that intervals are found without a search.
 #pragma once
 
 #include <boltzmann/core/pack_math.hpp>
@@ -8,14 +8,14 @@
 
 namespace boltzmann {
 
-/// A double without its last `shift` bits is the knot below it; those that are left are the number of its interval, of
-/// which the first is `first_row`.
+/// A double without its last `shift` bits is the knot below it; the remaining bits give the number of its interval, the
+/// first of which is `first_row`.
 struct OctaveKnots {
   std::int64_t first_row = 0;
   int shift = 0;
   double least = 0, greatest = 0;  ///< squares of the first and the last distance
 
-  /// The nearest square between them; the last where it is no number.
+  /// The nearest square between them; the last one for NaN.
   template <class Real>
   [[gnu::always_inline]] inline Real inside(Real const& square) const {
     return max(Real(least), min(Real(greatest), square));

@@ -1,4 +1,4 @@
-// Sampling a law over distances: its wells, slopes and singularities.
+// Samples a law over distances: its wells, slopes and singularities.
 #include <boltzmann/laws/pair_numbers.hpp>
 
 #include <algorithm>
@@ -11,9 +11,9 @@ namespace {
 constexpr std::size_t distances = 400;  // of the samples
 constexpr std::size_t pairs = 6;        // of particles
 constexpr double rounding = 1e-9;       // of forces
-constexpr double out_of_range = 1e100;  // a force that is on its way to infinity
+constexpr double out_of_range = 1e100;  // a diverging force
 
-/// The law between two particles of these, at some distance in some direction.
+/// The law between two particles of these ensembles, at a given distance in a fixed direction.
 class PairSampler {
  public:
   PairSampler(PairNumbers const& law, AnyEnsemble const& target, AnyEnsemble const& source)
@@ -26,14 +26,14 @@ class PairSampler {
         source_(source),
         inputs_(law.inputs) {}
 
-  /// Pair k of several, spread over the ensembles.
+  /// Selects pair k of several, spread over the ensembles.
   void choose(std::size_t k) {
     std::size_t const p = k * (target_.size() - 1) / (pairs - 1);
     std::size_t q = (pairs - 1 - k) * (source_.size() - 1) / (pairs - 1);
     if (&target_ == &source_ && q == p) q = (p + 1) % source_.size();
     for (auto const [offset, input] : numbers_.of_target) inputs_[input] = target_.row(p)[offset];
     for (auto const [offset, input] : numbers_.of_source) inputs_[input] = source_.row(q)[offset];
-    // A direction for each pair, along no axis and no diagonal.
+    // A direction for each pair, not along an axis or a diagonal.
     static constexpr std::array<double, 3> parts{0.48, 0.64, 0.6};
     double const square = dimension_ == 1 ? 1 : dimension_ == 2 ? 0.64 : 1;
     for (std::size_t c = 0; c < dimension_; ++c)
@@ -49,7 +49,7 @@ class PairSampler {
     for (std::size_t c = 0; c < dimension_; ++c) sum -= law_[c] * direction_[c];
     return sum;
   }
-  /// At the place of the last force.
+  /// At the distance of the last force.
   double energy() const { return has_energy_ ? law_[along_ ? 1 : dimension_] : 0; }
 
  private:
@@ -69,12 +69,12 @@ struct Curve {
   double distance(std::size_t k) const { return step * static_cast<double>(k + 1); }
 };
 
-/// The width of the innermost well, where a force turns from repulsion to attraction; 0: there is none.
+/// The width of the innermost well, where a force turns from repulsion to attraction; 0 if there is none.
 double width_of_well(Curve const& curve) {
   for (std::size_t k = 0; k + 1 < curve.forces.size(); ++k) {
     if (!(curve.forces[k] > 0 && curve.forces[k + 1] <= 0)) continue;
     double const stiffness = (curve.forces[k] - curve.forces[k + 1]) / curve.step;
-    // The work from the bottom outwards, as far as it is attracted.
+    // The work from the bottom outwards, over the attractive part.
     double depth = 0, strongest = 0, of_all = 0;
     for (std::size_t j = k + 1; j < curve.forces.size() && curve.forces[j] <= 0; ++j) {
       depth -= curve.forces[j] * curve.step;
@@ -82,13 +82,13 @@ double width_of_well(Curve const& curve) {
     }
     for (std::size_t j = curve.forces.size() / 2; j < curve.forces.size(); ++j)
       of_all = std::max(of_all, std::fabs(curve.forces[j]));
-    if (strongest < rounding * of_all) return 0;  // a force that has been switched off, but for rounding
+    if (strongest < rounding * of_all) return 0;  // zero up to rounding: a force that has been switched off
     return depth > 0 ? std::sqrt(2 * depth / stiffness) : 0;
   }
   return 0;
 }
 
-/// Of a force that stays finite: its greatest value over its steepest slope.
+/// For a force that stays finite: its greatest value over its steepest slope.
 double length_of_change(Curve const& curve) {
   double greatest = 0, steepest = 0;
   for (std::size_t k = 0; k < curve.forces.size(); ++k) {
@@ -98,13 +98,13 @@ double length_of_change(Curve const& curve) {
   return steepest > 0 ? greatest / steepest : __builtin_inf();
 }
 
-/// Whether a force grows beyond all bounds at small distances: at half a distance it is much greater.
+/// True if a force diverges at small distances: at half the distance it is much greater.
 bool is_singular(PairSampler& sampler, double near) {
   double const there = std::fabs(sampler.force(near)), nearer = std::fabs(sampler.force(near / 2));
   return !(nearer < 1.4 * there) && nearer > 0;
 }
 
-/// Whether there is a pair that could be looked at.
+/// True if there is a pair to sample.
 bool are_pairs(AnyEnsemble const& target, AnyEnsemble const& source, double reach) {
   if (target.size() == 0 || source.size() == 0 || (&target == &source && target.size() < 2)) return false;
   return reach > 0 && std::isfinite(reach);
@@ -121,9 +121,9 @@ LawSample sample_law(PairNumbers const& law, AnyEnsemble const& target, AnyEnsem
   for (std::size_t k = 0; k < pairs; ++k) {
     sampler.choose(k);
     curve.forces.assign(distances, 0.0);
-    std::size_t from = 0;  // nearer ones are beyond the range of doubles
+    std::size_t from = 0;  // forces at smaller distances overflow doubles
     for (std::size_t n = distances; n-- > 0;) {
-      // A distance that a cut-off excludes is none; the last sample is just within it.
+      // A distance at the cut-off is excluded; the last sample is just within it.
       double const r = n + 1 == distances ? reach * (1 - 1e-12) : curve.distance(n);
       double const force = sampler.force(r);
       if (std::isfinite(force) && std::isfinite(sampler.energy())) {

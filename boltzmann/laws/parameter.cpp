@@ -1,4 +1,4 @@
-// Parameters: which numbers are allowed.
+// Checks the values of parameters.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/laws/parameter.hpp>
 

@@ -1,5 +1,5 @@
-// Parameters of laws and materials: what one says of itself, once, in its struct. Its checks, scenarios, `bzm show` and
-// the reference pages are made from that.
+// Parameters of laws and materials: each struct describes them once. Checks, scenarios, `bzm show` and the reference
+// pages are made from that.
 #pragma once
 
 #include <boltzmann/core/dimension.hpp>
@@ -11,8 +11,8 @@
 
 namespace boltzmann {
 
-/// A law as somebody would type it, in the words of FormulaLaw: an energy if it has one, else an influence; empty: it
-/// can't be typed.
+/// A law as text, in the names of FormulaLaw: an energy if it has one, else an influence; empty: it can't be written as
+/// text.
 struct TypedLawText {
   std::string_view in[3];  ///< by dimension, from 1
 
@@ -23,20 +23,20 @@ struct TypedLawText {
       : in{in_1d, in_2d, in_3d} {}
 };
 
-/// What a shipped law is: `static constexpr LawText text{...}` in its struct.
+/// The description of a shipped law: `static constexpr LawText text{...}` in its struct.
 struct LawText {
   std::string_view name;     ///< the word in scenarios: "lennard-jones"
   std::string_view doc;      ///< one line
   std::string_view formula;  ///< the energy, or the influence where there is no energy
-  std::string_view target;   ///< the least class of the particle that is influenced
-  std::string_view source;   ///< the least class of the particle that influences; empty: it comes from outside
+  std::string_view target;   ///< the base class of particles that are influenced
+  std::string_view source;   ///< the base class of particles that influence; empty: an external law
   int least_dimension = 1, greatest_dimension = 3;
   bool has_energy = true;
-  std::string_view in_programs = {};  ///< what a program writes; empty: the struct's name
+  std::string_view in_programs = {};  ///< the expression in a program; empty: the struct's name
   TypedLawText typed = {};            ///< the same as a typed law
 };
 
-/// What a shipped material is: `static constexpr MaterialText text{...}` in its struct.
+/// The description of a shipped material: `static constexpr MaterialText text{...}` in its struct.
 struct MaterialText {
   std::string_view name;     ///< the word in scenarios: "ideal-gas"
   std::string_view doc;      ///< one line
@@ -53,33 +53,33 @@ struct DimensionBySpace {
   constexpr Dimension in(int space) const { return dimension * pow(dimensions::length, by_space * space); }
 };
 
-/// In which bases of units a default holds.
+/// The bases of units for which a default is valid.
 enum class DefaultIn { all, those_with_units, reduced };
 
-/// What one number of a law or a material, or one vector, may be.
+/// The allowed values of one number, or one vector, of a law or a material.
 struct Parameter {
   std::string_view name;
-  /// Of laws the same in all spaces: in 1D and 2D particles are sheets and rods of unit size.
+  /// For laws the same in all dimensions: in 1D and 2D particles are sheets and rods of unit size.
   DimensionBySpace dimension;
   std::string_view doc;
   NumberRange range = any_number;
-  std::string_view default_text = {};  ///< as a scenario would write it; empty: required, where not unlimited
+  std::string_view default_text = {};  ///< as in a scenario; empty: required, unless unlimited
   DefaultIn default_in = DefaultIn::all;
   bool unlimited = false;      ///< infinity is allowed, and is the default
-  bool axial = false;          ///< of a vector: that of a rotation, which in 2D is one number, out of the plane
+  bool axial = false;          ///< of a vector: axial, in 2D one number, out of the plane
   bool vector = false;         ///< one number for each dimension of the space
-  std::string_view also = {};  ///< another word for it in scenarios: "sigma" of r0; empty: none
-  double also_times = 1;       ///< the parameter is that word's value times this
+  std::string_view also = {};  ///< another name for it in scenarios: "sigma" of r0; empty: none
+  double also_times = 1;       ///< the parameter is the value of that name times this
 };
 
-/// The parameter with another word for it.
+/// The parameter with another name.
 constexpr Parameter also(Parameter parameter, std::string_view word, double times = 1) {
   parameter.also = word;
   parameter.also_times = times;
   return parameter;
 }
 
-/// A parameter and the member of the struct that it is. `static constexpr auto parameters()` gives a tuple of these.
+/// A parameter and the member of the struct for it. `static constexpr auto parameters()` returns a tuple of these.
 template <class T, class Value>
 struct ParameterOf {
   Value T::*member;
@@ -102,7 +102,7 @@ void check_value(std::string_view owner, Parameter const& parameter, Vector cons
 }
 }  // namespace detail
 
-/// "law": it has parameters, but does not say what it is.
+/// "law": it has parameters, but no description.
 template <class T>
 constexpr std::string_view name_of_law() {
   if constexpr (requires { T::text; })
@@ -111,8 +111,7 @@ constexpr std::string_view name_of_law() {
     return "law";
 }
 
-/// Of a law or a material: throws Error at the first parameter that can't be, and as its own check() does, if it has
-/// one.
+/// For a law or a material: throws Error at the first invalid parameter, and calls its own check(), if it has one.
 template <class T>
 void check_parameters(T const& law) {
   if constexpr (requires { T::parameters(); })

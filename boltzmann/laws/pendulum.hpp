@@ -8,7 +8,7 @@
 namespace boltzmann {
 
 /// A spring between the bobs: potential (stiffness / 2) (d - rest_length)^2 of their distance d. The torque on each is
-/// cross(arm, force on its own bob). The two torques differ, for Newton's third law holds for the forces but not for
+/// cross(arm, force on its own bob). The two torques differ, since Newton's third law applies to forces but not to
 /// generalised forces; the energy is conserved.
 struct PendulumCoupling {
   static constexpr Symmetry symmetry = Symmetry::general;
@@ -41,8 +41,8 @@ struct PendulumCoupling {
   }
 };
 
-/// The weight of the bob in a uniform field `acceleration` downwards: torque -m g l sin(angle), energy zero where it
-/// hangs.
+/// The weight of the bob in a uniform downward field `acceleration`: torque -m g l sin(angle), energy zero at the
+/// lowest point.
 struct PendulumGravity {
   double acceleration;
 

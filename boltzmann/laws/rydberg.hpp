@@ -7,9 +7,9 @@
 namespace boltzmann {
 
 /// phi(r) = -depth (1 + x + alpha x^3) e^-x with x = a (r - r0) / r0: minimum -depth at r0, stiffness depth (a / r0)^2
-/// there. In the scaled distance x it is the universal binding curve on which the cohesive energies of most metals
-/// fall; the cubic term makes the core harder (alpha = 0.185 for PVDF in the DPDE source). Two particles at one
-/// place don't push each other: they have no direction.
+/// there. In the scaled distance x it is the universal binding curve, which fits the cohesive energies of most metals;
+/// the cubic term makes the core harder (alpha = 0.185 for PVDF in the DPDE source). Two coincident particles exert no
+/// force on each other, as they have no direction.
 struct Rydberg {
   static constexpr Symmetry symmetry = Symmetry::antisymmetric;
   static constexpr bool positions_alone = true;

@@ -6,9 +6,9 @@
 
 namespace boltzmann {
 
-/// A force repulsion (1 - r / range) up to the range, nothing beyond: phi(r) = repulsion range / 2 (1 - r / range)^2.
-/// Lumps of fluid, which may lie on top of each other (Eq 5 of Groot and Warren, J. Chem. Phys. 107, 4423; their a is
-/// the repulsion). Two particles at one place don't push each other: they have no direction.
+/// A force repulsion (1 - r / range) up to the range, zero beyond: phi(r) = repulsion range / 2 (1 - r / range)^2. For
+/// lumps of fluid, which may overlap (Eq 5 of Groot and Warren, J. Chem. Phys. 107, 4423; their a is the repulsion).
+/// Two coincident particles exert no force on each other, as they have no direction.
 struct Soft {
   static constexpr Symmetry symmetry = Symmetry::antisymmetric;
   static constexpr bool positions_alone = true;

@@ -7,8 +7,8 @@
 namespace boltzmann {
 
 /// phi(r) = stiffness (r - rest_length)^2 / 2. In 1D the spring keeps the order of its ends, as in a chain of lumped
-/// masses (section 6.2 of the 1990 thesis): compressed, it pushes them apart. Two particles at one place don't push
-/// each other: they have no direction.
+/// masses (section 6.2 of the 1990 thesis): compressed, it pushes them apart. Two coincident particles exert no force
+/// on each other, as they have no direction.
 struct Spring {
   static constexpr Symmetry symmetry = Symmetry::antisymmetric;
   static constexpr bool positions_alone = true;
@@ -37,7 +37,7 @@ struct Spring {
     return Interaction{direction * (stiffness * extension), 0.5 * stiffness * extension * extension};
   }
 
-  /// Beyond the rest length the ends may have changed places.
+  /// Beyond the rest length the ends may have exchanged their order.
   double length_scale() const { return rest_length > 0 ? rest_length : __builtin_inf(); }
 };
 

@@ -21,15 +21,16 @@ double checked_capacity(std::function<double(double)> const& heat_capacity, doub
   double const value = heat_capacity(temperature);
   if (!is_positive(value))
     throw Error(fmt::format("state law: the heat capacity must be positive and finite, at the temperature {} it is {}",
-                            temperature, std::isnan(value) ? std::abs(value) : value));  // no sign of what is none
+                            temperature, std::isnan(value) ? std::abs(value) : value));  // NaN without its sign
   return value;
 }
 
-/// Points of a function, so close that straight lines between them are right to `tolerance`: halved where they aren't.
+/// Points of a function, close enough that straight lines between them are accurate to `tolerance`; intervals are
+/// halved as needed.
 struct Sampling {
   std::function<double(double)> const& function;
   double tolerance;
-  double floor;  // values below this matter no more than it does
+  double floor;  // smaller values are treated like this
   std::vector<double>& x;
   std::vector<double>& y;
 
@@ -66,8 +67,7 @@ StateLaw::StateLaw(std::function<double(double)> const& heat_capacity, double lo
         "state law: the temperatures must ascend from above zero, by a factor that is a number, not from {} "
         "to {}",
         lowest, highest));
-  constexpr int pieces =
-      32;  // to begin with: of equal ratio, so that none of them misses what happens at low temperature
+  constexpr int pieces = 32;  // initial points: of equal ratio, so that details at low temperature are resolved
   std::vector<double> points(pieces + 1), values(pieces + 1);
   for (int i = 0; i <= pieces; ++i) {
     points[i] = i == pieces ? highest : lowest * std::pow(highest / lowest, static_cast<double>(i) / pieces);
@@ -117,7 +117,7 @@ void StateLaw::check_and_integrate() {
   }
   if (!std::isfinite(energy_.back())) throw Error("state law: the energies of the table are not finite");
 
-  // Numbers above zero are in the same order as their bits, which ascend linearly within each power of two.
+  // Positive numbers have the order of their bits, which increase linearly within each power of two.
   first_bits_ = std::bit_cast<std::uint64_t>(energy_.front());
   std::uint64_t const range = std::bit_cast<std::uint64_t>(energy_.back()) - first_bits_;
   while ((range >> shift_) > 4 * size) ++shift_;
@@ -130,7 +130,7 @@ void StateLaw::check_and_integrate() {
   }
 }
 
-/// Which piece an energy above that of the first point and below that of the last one is in.
+/// The piece of an energy between the first and the last point.
 std::size_t StateLaw::piece_of_energy(double energy) const {
   std::uint64_t const bucket = (std::bit_cast<std::uint64_t>(energy) - first_bits_) >> shift_;
   std::size_t low = first_piece_[bucket], high = first_piece_[bucket + 1];
@@ -144,7 +144,7 @@ std::size_t StateLaw::piece_of_energy(double energy) const {
   return low;
 }
 
-/// Which piece a temperature between the first and the last one is in.
+/// The piece of a temperature between the first and the last one.
 std::size_t StateLaw::piece_of_temperature(double temperature) const {
   auto const above = std::upper_bound(temperature_.begin() + 1, temperature_.end() - 1, temperature);
   return static_cast<std::size_t>(above - temperature_.begin()) - 1;
@@ -166,7 +166,8 @@ double StateLaw::temperature(double energy) const {
   if (energy >= energy_.back()) return temperature_.back() + (energy - energy_.back()) / capacity_.back();
   std::size_t const i = piece_of_energy(energy);
   double const rest = energy - energy_[i], capacity = capacity_[i];
-  // The root of rest = capacity t + slope t^2 / 2 that is right for any slope; the square root is Cv at t.
+  // The root of rest = capacity t + slope t^2 / 2 in the form that is accurate for any slope; the square root is Cv at
+  // t.
   return temperature_[i] + 2 * rest / (capacity + std::sqrt(std::max(0.0, capacity * capacity + 2 * slope_[i] * rest)));
 }
 

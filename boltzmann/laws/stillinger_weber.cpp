@@ -1,4 +1,4 @@
-// The numbers of silicon, and which are allowed.
+// The parameters of silicon, and their checks.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/laws/stillinger_weber.hpp>
 

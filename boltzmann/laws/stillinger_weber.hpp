@@ -24,7 +24,7 @@ struct StillingerWeber {
   static StillingerWeber silicon(UnitSystem const& units);
 
   double cutoff() const { return a * sigma; }
-  /// Error at a number that can't be.
+  /// Error for an invalid number.
   void check() const;
 
   template <class Real>

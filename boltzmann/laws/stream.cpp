@@ -1,4 +1,4 @@
-// Streams that can't be.
+// Rejects invalid streams.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/laws/stream.hpp>
 

@@ -1,5 +1,4 @@
-// Streams that are not the same everywhere, or not always: what carries fluid particles from outside. (One that is:
-// UniformFlow.)
+// Streams that vary in space or time: external flows that carry fluid particles. (A constant one is UniformFlow.)
 #pragma once
 
 #include <boltzmann/laws/interaction.hpp>
@@ -11,7 +10,7 @@
 namespace boltzmann {
 
 namespace detail {
-/// Throws Error unless what a stream gains along itself is nothing beside how it changes: its fluid would be compressed.
+/// Throws Error if the divergence of a stream is not negligible against its change: its fluid would be compressed.
 void check_divergence(char const* law, char const* what, double divergence, double change);
 
 /// A velocity that changes no vorticity, as the influence of this class.
@@ -24,8 +23,8 @@ auto stream_on(Velocity const& velocity) {
 }
 }  // namespace detail
 
-/// A parallel stream that grows across itself. It has vorticity of its own, which is uniform; in 3D vortices would bend
-/// it, and no element stands for that, so that classes which are stretched (Inviscid, Viscous) can't have it there.
+/// A parallel stream that increases across its direction. It has uniform vorticity of its own. In 3D vortices would
+/// bend that, which no element represents, so that classes with stretching (Inviscid, Viscous) can't have it there.
 template <int D>
 struct ShearFlow {
   static_assert(D >= 2, "a stream is sheared across itself: in 2D or 3D");
@@ -57,8 +56,8 @@ struct ShearFlow {
   }
 };
 
-/// A stagnation point: fluid comes along some axes and leaves along others. It has no vorticity, and stretches that of
-/// Inviscid and Viscous in 3D.
+/// A stagnation point: fluid approaches along some axes and leaves along others. It has no vorticity, and stretches
+/// that of Inviscid and Viscous in 3D.
 template <int D>
 struct StrainFlow {
   static_assert(D >= 2, "what comes along one axis leaves along another: in 2D or 3D");
@@ -94,7 +93,7 @@ struct StrainFlow {
   }
 };
 
-/// A stream that is the same everywhere and swings in time.
+/// A uniform stream that oscillates in time.
 template <int D>
 struct OscillatingFlow {
   static constexpr bool uniform = true;

@@ -1,4 +1,4 @@
-// Tables of pair energies: splines through functions, points and files, and how far off they are.
+// Tables of pair energies: splines through functions, points and files, and their errors.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/laws/table.hpp>
 #include <boltzmann/laws/two_columns.hpp>
@@ -98,7 +98,7 @@ double median(std::vector<double>& values) {
 
 }  // namespace
 
-/// What a table is made of, and measured against.
+/// The function of a table, and the reference for its errors.
 struct Table::Source {
   Energy energy;
   Energy exact_slope;  // dU/dr; empty: by differences
@@ -109,7 +109,7 @@ struct Table::Source {
     if (!std::isfinite(u)) throw Error(fmt::format("table: the energy at distance {:.6g} is {}", r, u));
     return u;
   }
-  /// dU/dr; nothing where differences would be noise, right beside the ends.
+  /// dU/dr; nothing right beside the ends, where differences would be noise.
   std::optional<double> slope(double r) const {
     if (exact_slope) return exact_slope(r);
     double const d = std::min({3e-4 * r, (r - first) / 2, (last - r) / 2});
@@ -125,7 +125,7 @@ struct Table::Source {
   }
 };
 
-/// The ends, and between them those knots that don't come too near to the ends.
+/// The ends, and between them the knots that are not too close to the ends.
 std::vector<double> Table::knots_between(std::int64_t end_row) const {
   std::vector<double> s{least_};
   for (std::int64_t row = first_row_ + 1; row < end_row; ++row) {
@@ -162,7 +162,7 @@ Table::Table(Source const& source, PerOctave fineness) {
       fineness.intervals > most_per_octave)
     throw Error(fmt::format("table: {} intervals per octave; powers of two from {} to {} are allowed",
                             fineness.intervals, least_per_octave, most_per_octave));
-  // Octaves down to zero would have no end.
+  // Octaves down to zero would be infinitely many.
   double const first = std::max(source.first, 1e-3 * source.last);
   least_ = first * first;
   greatest_ = source.last * source.last;
@@ -201,7 +201,7 @@ Table::Table(Source const& source, PerOctave fineness) {
     double const mean = (u[k + 1] - u[k]) / h[k];
     double const c2 = (3 * mean - 2 * slope[k] - slope[k + 1]) / h[k];
     double const c3 = (slope[k] + slope[k + 1] - 2 * mean) / (h[k] * h[k]);
-    double const e = from - s[k];  // zero, but for the intervals at the ends
+    double const e = from - s[k];  // zero, except for the intervals at the ends
     data->rows[row] = {
         {u[k] + e * (slope[k] + e * (c2 + e * c3)), slope[k] + e * (2 * c2 + e * 3 * c3), c2 + 3 * c3 * e, c3}};
   }
@@ -233,7 +233,7 @@ TableError Table::measured(Table const& table, Source const& source) {
     auto const row = table.first_row_ + static_cast<std::int64_t>(k);
     measure_between(std::max(table.knot(row), table.least_), std::min(table.knot(row + 1), table.greatest_));
   }
-  // The typical sizes, over evenly spaced distances.
+  // The medians, over evenly spaced distances.
   int const distances = 1000;
   for (int k = 0; k < distances; ++k) {
     double const r = source.first + (source.last - source.first) * (k + 0.5) / distances;

@@ -1,4 +1,4 @@
-// Laws from tables: a pair energy that is known as numbers, or is too dear to compute for every pair.
+// Laws from tables: pair energies that are given as numbers, or are too expensive to compute for every pair.
 #pragma once
 
 #include <boltzmann/core/pack_math.hpp>
@@ -25,13 +25,13 @@ struct TablePoint {
   double distance, energy;
 };
 
-/// How the spline through points ends: with a given slope dU/dr (clamped), or without curvature (natural).
+/// The ends of the spline through points: with a given slope dU/dr (clamped), or without curvature (natural).
 struct SplineEnds {
   std::optional<double> first_slope, last_slope;
 };
 
-/// How fine a table is: by the number of intervals in every doubling of r^2, a power of two, or by the error that is
-/// allowed (see TableError::relative).
+/// The fineness of a table: by the number of intervals in every octave of r^2, a power of two, or by the allowed error
+/// (see TableError::relative).
 struct PerOctave {
   std::size_t intervals;
 };
@@ -39,30 +39,30 @@ struct Tolerance {
   double relative;
 };
 
-/// The largest errors of a table, measured at several places between all its knots (the force against central
-/// differences of fourth order where only U is known), with 5 % added.
+/// The largest errors of a table, measured at several points between all its knots (the force against central
+/// differences of fourth order if only U is known), plus 5 %.
 struct TableError {
   double energy = 0;  ///< |U_table - U|
   double force = 0;   ///< |F_table - F|
-  /// The larger of |U_table - U| / (|U| + U*) and |F_table - F| / (|F| + F*), where half of the range of distances has
-  /// |U| above U*, and |F| above F*: relative where the law is strong, absolute where it passes through zero.
+  /// The larger of |U_table - U| / (|U| + U*) and |F_table - F| / (|F| + F*), where U* and F* are the medians of |U|
+  /// and |F| over the distances: relative where the law is strong, absolute where it passes through zero.
   double relative = 0;
 };
 
-/// The pair law of an energy U(r): a cubic spline in r^2, with two continuous derivatives; the force is the exact
-/// derivative of that spline, so that energy is conserved whatever the error is. The knots are evenly spaced in every
-/// doubling of r^2, so that a steep core and a long tail both have enough of them, and the number of an interval stands
-/// in the leading bits of r^2: no root, no division, no search. Copies of a Table share its numbers.
-/// Nearer than the first distance, U goes on as a straight line in r^2: the force falls in proportion to r, and two
-/// particles at one place don't push each other. Beyond the last distance there is no force, and U stays what it was.
+/// The pair law of an energy U(r): a cubic spline in r^2, with two continuous derivatives. The force is the exact
+/// derivative of that spline, so that energy is conserved for any error. The knots are evenly spaced in every octave of
+/// r^2, so that a steep core and a long tail are both resolved. The leading bits of r^2 give the number of an interval:
+/// no root, no division, no search. Copies of a Table share its numbers.
+/// Below the first distance, U continues as a straight line in r^2: the force falls in proportion to r, and two
+/// coincident particles exert no force on each other. Beyond the last distance there is no force, and U is constant.
 class Table {
  public:
   static constexpr Symmetry symmetry = Symmetry::antisymmetric;
   static constexpr bool positions_alone = true;
   using Energy = std::function<double(double)>;
 
-  /// U(r) for 0 <= first <= r <= last; it must be finite there. (A first distance below a thousandth of the last one
-  /// counts as that.) Error if it is not, and if the tolerance asks for more than 200000 intervals.
+  /// U(r) for 0 <= first <= r <= last; it must be finite there. (A first distance below a thousandth of the last one is
+  /// replaced by that.) Error if it is not finite, and if the tolerance requires more than 200000 intervals.
   Table(Energy const& energy, double first, double last, Tolerance tolerance);
   Table(Energy const& energy, double first, double last, PerOctave fineness);
 
@@ -70,29 +70,29 @@ class Table {
   explicit Table(std::span<TablePoint const> points, SplineEnds ends = {}, Tolerance tolerance = {1e-5});
   Table(std::span<TablePoint const> points, SplineEnds ends, PerOctave fineness);
 
-  /// The points of a text file: a distance and an energy in every line, in the simulation's units; empty lines and what
-  /// follows a '#' don't count. Error, "file:line: what is wrong", for anything else.
+  /// The points of a text file: a distance and an energy in every line, in the simulation's units; empty lines and text
+  /// after a '#' are ignored. Error, "file:line: what is wrong", for anything else.
   static Table from_file(std::string const& path, SplineEnds ends = {}, Tolerance tolerance = {1e-5});
 
   TableError error() const { return data_->error; }
   std::size_t intervals() const { return data_->rows.size(); }
   double first() const { return data_->first; }
   double last() const { return data_->last; }
-  /// For loops that read several tables of the same knots at once: four coefficients of powers of r^2 - knot for each
+  /// For loops that read several tables with the same knots at once: four coefficients of powers of r^2 - knot for each
   /// interval.
   OctaveKnots knots() const { return {first_row_, shift_, least_, greatest_}; }
   double const* coefficients() const { return rows_; }
-  /// The smallest distance at which the law is known.
+  /// The smallest tabulated distance.
   double length_scale() const { return data_->first; }
 
-  /// U and dU/d(r^2) at r^2; `Real` is double or a Pack. Whatever the argument, NaN too, only the table is read.
+  /// U and dU/d(r^2) at r^2; `Real` is double or a Pack. For any argument, including NaN, only the table is read.
   template <class Real>
   struct Value {
     Real energy, slope;
   };
   template <class Real>
   [[gnu::always_inline]] inline Value<Real> at(Real const& square) const {
-    // Not min(square, ...): where the square is NaN, the limit is taken.
+    // Not min(square, ...): for NaN this gives the limit.
     Real const inside = knots().inside(square);
     auto const [knot, c] = interval(inside);
     Real const d = inside - knot;

@@ -1,4 +1,4 @@
-// The tether: a spring from each particle to a point of its own (section 6.3 of the 1990 thesis, the boundary of the
+// The tether: a spring from each particle to an anchor of its own (section 6.3 of the 1990 thesis, the boundary of the
 // metal).
 #pragma once
 
@@ -8,7 +8,7 @@
 namespace boltzmann {
 
 /// F = -stiffness (position - anchor), energy stiffness |position - anchor|^2 / 2; both are fields of the particle
-/// (class Tethered). The straight line to the anchor counts, also where an axis is periodic.
+/// (class Tethered). The distance to the anchor is not wrapped, even along a periodic axis.
 struct Tether {
   static constexpr LawText text{
       .name = "tether",

@@ -48,7 +48,7 @@ std::vector<NumberPair> read_pairs(std::string const& path, std::string const& f
 std::vector<std::array<double, 2>> read_two_columns(std::string const& path, std::string const& first,
                                                     std::string const& second, bool positive) {
   std::vector<std::array<double, 2>> points;
-  auto const name = first.substr(first.find(' ') + 1);  // without its article
+  auto const name = first.substr(first.find(' ') + 1);  // without the article
   for (auto const& [values, number] : read_pairs(path, first, second)) {
     if (positive && values[0] <= 0)
       throw Error(fmt::format("{}:{}: the {} {:.6g} must be positive", path, number, name, values[0]));

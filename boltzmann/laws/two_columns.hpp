@@ -13,12 +13,13 @@ struct NumberPair {
   int line;
 };
 
-/// The pairs of numbers of a file: one a line, separated by blanks or commas, behind # anything. Error naming file and
-/// line if a line has other than two finite numbers. `first` and `second` are what they are, with an article ("a density").
+/// The pairs of numbers of a file: one a line, separated by blanks or commas; text after # is ignored. Error naming
+/// file and line if a line does not have two finite numbers. `first` and `second` describe them, with an article ("a
+/// density").
 std::vector<NumberPair> read_pairs(std::string const& path, std::string const& first, std::string const& second);
 
-/// The same where the first numbers grow: Error, too, if one is negative (or zero, if `positive`) or not above the one
-/// before, or there are fewer than two lines.
+/// The same with increasing first numbers: also an Error if one is negative (or zero, if `positive`) or not above the
+/// one before, or there are fewer than two lines.
 std::vector<std::array<double, 2>> read_two_columns(std::string const& path, std::string const& first,
                                                     std::string const& second, bool positive);
 

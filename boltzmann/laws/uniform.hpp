@@ -1,4 +1,4 @@
-// Uniform fields from outside: weight, an electric field, a background flow.
+// Uniform external fields: weight, an electric field, a background flow.
 #pragma once
 
 #include <boltzmann/laws/interaction.hpp>

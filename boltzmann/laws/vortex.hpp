@@ -1,5 +1,5 @@
-// The law of Biot and Savart: vortices carry fluid particles and each other (section 3.7 of the 1990 thesis), with the
-// cores that vortex methods use.
+// The Biot-Savart law: vortices carry fluid particles and each other (section 3.7 of the 1990 thesis), with the cores
+// of vortex methods.
 #pragma once
 
 #include <boltzmann/core/pack.hpp>
@@ -12,8 +12,8 @@
 
 namespace boltzmann {
 
-/// The square of a distance in 2D and so little that only at no distance it counts: there its inverse is a number, too,
-/// and the velocity, which is r times that, is zero without a core.
+/// A square of a distance in 2D, small enough to matter only at distance zero: it keeps the inverse finite there, so
+/// that the velocity, r times the inverse, is zero without a core.
 template <class Real>
 inline constexpr double smallest_square = 1e-200;
 template <int W>
@@ -23,16 +23,16 @@ Real square_above_zero(Vector<2, Real> const& r) {
   return r[0] * r[0] + (r[1] * r[1] + smallest_square<Real>);
 }
 
-/// How strongly a vortex turns what is near it, by the square of the distance (in 2D square_above_zero) and of its core
-/// (a radius). A core says in 2D q(r) / r^2 and in 3D q(r) / r^3, q the part of its vorticity that is inside r, and in
-/// 3D also the derivative of that over r.
+/// The strength of a vortex's rotation, by the square of the distance (in 2D square_above_zero) and of its core (a
+/// radius). A core defines q(r) / r^2 in 2D and q(r) / r^3 in 3D, q the part of its vorticity inside r, and in 3D also
+/// the derivative of that divided by r.
 template <class Real>
 struct Turning {
   Real strength, slope;
 };
 
 /// 2D: solid rotation inside the core, a point vortex outside; zero at the centre. (C.20 has the speed of the rim
-/// everywhere inside, and no value at the centre.) 3D: of Rosenhead and Moore, q = r^3 / (r^2 + core^2)^(3/2).
+/// everywhere inside, and no value at the centre.) 3D: the core of Rosenhead and Moore, q = r^3 / (r^2 + core^2)^(3/2).
 struct PlainCore {
   static constexpr LawText text{
       .name = "biot-savart",
@@ -62,8 +62,9 @@ struct PlainCore {
   }
 };
 
-/// The algebraic core of G. S. Winckelmans and A. Leonard, J. Comput. Phys. 109, 247 (1993): vorticity goes with
-/// (1 + r^2 / core^2)^(-3) in 2D, ^(-7/2) in 3D, so that its second moment exists: an error of second order in the core.
+/// The algebraic core of G. S. Winckelmans and A. Leonard, J. Comput. Phys. 109, 247 (1993). The vorticity is
+/// proportional to (1 + r^2 / core^2)^(-3) in 2D, ^(-7/2) in 3D, so that its second moment exists: an error of second
+/// order in the core.
 struct AlgebraicCore {
   static constexpr LawText text{
       .name = "biot-savart-algebraic",
@@ -93,8 +94,8 @@ struct AlgebraicCore {
   }
 };
 
-/// Vorticity is a Gaussian of standard deviation `core`: that of a point vortex after a time core^2 / (2 viscosity)
-/// (Lamb and Oseen). An error of second order in the core.
+/// A Gaussian of standard deviation `core`: the vorticity of a point vortex after a time core^2 / (2 viscosity) (Lamb
+/// and Oseen). An error of second order in the core.
 struct GaussianCore {
   static constexpr LawText text{
       .name = "biot-savart-gaussian",
@@ -114,7 +115,7 @@ struct GaussianCore {
   template <class Real>
   static Real turning_2d(Real const& square, Real const& core2) {
     Scaled<Real> const t(square, core2);
-    Real const near = t.inverse * (1.0 - t.square * (0.5 - t.square * (1.0 / 6)));  // of what is left of it at 1e-6
+    Real const near = t.inverse * (1.0 - t.square * (0.5 - t.square * (1.0 / 6)));  // the rest is below rounding
     return select(t.square < 1e-6, near, -expm1(-t.square) * select(square > 0.0, 1.0 / square, Real(0.0)));
   }
   template <class Real>
@@ -148,7 +149,7 @@ struct GaussianCore {
     }
     return all;
   }();
-  /// t^2, no larger than it takes for the core to be of no effect.
+  /// t^2, limited to where the core has no effect.
   template <class Real>
   struct Scaled {
     Real inverse, square;
@@ -158,17 +159,17 @@ struct GaussianCore {
   };
 };
 
-/// The velocity that vortex q gives to the fluid particle p; r = p - q, w the turning of q's core.
+/// The velocity of the fluid particle p by the vortex q; r = p - q, w the turning of q's core.
 ///   2D: Gamma / (2 pi) k x r w
-///   3D: 1/(4 pi) omega_q x r w. Where p's influence is a VortexInfluence (Inviscid, Viscous), also what the flow does to
-///       p's vorticity: (omega_p . grad) v (Eq 3.14), or grad (omega_p . v) with omega_p held, its transposed form, or
-///       something between them. They agree where the vorticity has no divergence; the transposed one conserves the sum
-///       of the vorticity whatever it is.
+///   3D: 1/(4 pi) omega_q x r w. If p's influence is a VortexInfluence (Inviscid, Viscous), also the rate of
+///       p's vorticity: (omega_p . grad) v (Eq 3.14), or grad (omega_p . v) with omega_p fixed, its transposed form, or
+///       a mixture. They agree if the vorticity has no divergence; the transposed one always conserves the sum
+///       of the vorticity.
 /// A positive vortex (3D: along +z) turns counterclockwise. Test particles (Tracer) carry no vorticity: use
-/// one_way(BiotSavart{}) between them and vortices. There is no energy.
+/// one_way(BiotSavart{}) between them and vortices. The law has no energy.
 template <class Core>
 struct BiotSavartOf {
-  double transposed = 1;  ///< the part of the transposed form; 0: Eq 3.14, 1/2: mixed
+  double transposed = 1;  ///< fraction of the transposed form; 0: Eq 3.14, 1/2: mixed
 
   static constexpr LawText text = Core::text;
   static constexpr auto parameters() {
@@ -191,7 +192,7 @@ struct BiotSavartOf {
     using Real = std::remove_cvref_t<decltype(r[0])>;
     Real const core2 = q.core * q.core;
     if constexpr (P::dimension == 2) {
-      // What is of the source alone stands together: it is found once for several targets.
+      // Factors of the source alone are grouped, so that they are computed once for several targets.
       auto const swirl = cross(q.vorticity * (1 / (2 * pi)) * Core::turning_2d(square_above_zero(r), core2), r);
       if constexpr (std::is_same_v<typename P::Influence, ExchangeInfluence<Real>>)
         return ExchangeInfluence<Real>{swirl, {Real(0.0)}};
@@ -216,7 +217,7 @@ using BiotSavart = BiotSavartOf<PlainCore>;
 using AlgebraicBiotSavart = BiotSavartOf<AlgebraicCore>;
 using GaussianBiotSavart = BiotSavartOf<GaussianCore>;
 
-/// One of them, chosen while a program runs.
+/// One of them, chosen at run time.
 enum class VortexCore { plain, algebraic, gaussian };
 struct VortexLaw {
   VortexCore core;

@@ -1,4 +1,4 @@
-// The exchange of vorticity between neighbours: viscosity without random numbers.
+// The exchange of vorticity between neighbours: viscosity without a random walk.
 #pragma once
 
 #include <boltzmann/laws/interaction.hpp>
@@ -11,12 +11,12 @@ namespace boltzmann {
 /// vorticity as an integral,
 ///   d Gamma_p / dt = nu / width^2 sum_q (V_p Gamma_q - V_q Gamma_p) eta(r),
 /// eta = 2 exp(-r^2 / (2 width^2)) / (2 pi width^2)^(D/2), V the volume of a particle (in 2D its area), width its core
-/// unless a width is given. What one loses the other gains, so the sum of the vorticity stays. A ripple of wave number
-/// k decays at (2 nu / width^2) (1 - exp(-width^2 k^2 / 2)) instead of nu k^2: an error of second order in the width;
-/// the mean square radius grows at 2 D nu exactly, as far as sums over the particles are the integral. That needs
-/// particles that overlap (a width of one spacing or more), and some around the vorticity into which it can spread.
-/// Cores that differ count by their mean square, viscosities that differ by their mean, which is the integral for
-/// div(nu grad omega). A cut-off at 5 widths takes 5e-5 of the growth away, at 6 widths 3e-7.
+/// unless a width is given. The exchange is antisymmetric, so the sum of the vorticity is conserved. A ripple of wave
+/// number k decays at (2 nu / width^2) (1 - exp(-width^2 k^2 / 2)) instead of nu k^2: an error of second order in the
+/// width; the mean square radius grows at 2 D nu exactly, as far as sums over the particles approximate the integral.
+/// That requires overlapping particles (a width of one spacing or more), also around the vorticity, so that it can
+/// spread. Different cores enter by their mean square, different viscosities by their mean, which is the integral for
+/// div(nu grad omega). A cut-off at 5 widths reduces the growth by 5e-5, at 6 widths by 3e-7.
 struct VorticityExchange {
   static constexpr Symmetry symmetry = Symmetry::antisymmetric;
 

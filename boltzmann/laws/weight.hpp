@@ -1,4 +1,4 @@
-// Weights of smooth particles: how the mass of a particle is spread around it (Eq 6 of Hoover and Hoover's SPAM).
+// Weights of smooth particles: the distribution of a particle's mass around it (Eq 6 of Hoover and Hoover's SPAM).
 #pragma once
 
 #include <boltzmann/core/number.hpp>
@@ -11,17 +11,18 @@
 
 namespace boltzmann {
 
-// A shape gives a weight as a function of q = r / range, for 0 <= q <= 1 (everything is zero at q = 1, and taken as
-// zero beyond), without its normalisation:
+// A shape defines a weight as a function of q = r / range, for 0 <= q <= 1 (everything is zero at q = 1, and beyond),
+// without its normalisation:
 //   norm<D>           the factor that makes the integral over D-dimensional space, in units of the range, one
 //   value(q)
-//   slope(q, 1/q)     value'(q) / q: finite at q = 0, so that a gradient needs no unit vector; 1/q may be anything there
+//   slope(q, 1/q)     value'(q) / q: finite at q = 0, so that a gradient needs no unit vector; 1/q may be anything
+//   there
 //   curvature(q)      value''(q)
 
 /// (1 - q)^3 (1 + 3q): Lucy 1977, two continuous derivatives. The weight of the source texts.
 struct Lucy {
   static constexpr char const* name = "lucy";
-  static constexpr double smoothing_length = 0.5;  ///< in parts of the range
+  static constexpr double smoothing_length = 0.5;  ///< relative to the range
   template <int D>
   static constexpr double norm = D == 1   ? 1.25
                                  : D == 2 ? 5 / std::numbers::pi
@@ -46,7 +47,7 @@ struct Lucy {
 /// transform is positive: particles don't pair.
 struct Wendland {
   static constexpr char const* name = "wendland";
-  static constexpr double smoothing_length = 0.5;  ///< in parts of the range
+  static constexpr double smoothing_length = 0.5;  ///< relative to the range
   template <int D>
   static constexpr double norm = D == 1   ? 1.25
                                  : D == 2 ? 7 / std::numbers::pi
@@ -71,10 +72,10 @@ struct Wendland {
   }
 };
 
-/// The cubic B-spline: with s = 2q, (2 - s)^3 - 4 (1 - s)^3, a bracket counting where it is positive.
+/// The cubic B-spline: with s = 2q, (2 - s)^3 - 4 (1 - s)^3, where negative brackets are zero.
 struct CubicSpline {
   static constexpr char const* name = "cubic-spline";
-  static constexpr double smoothing_length = 0.5;  ///< in parts of the range
+  static constexpr double smoothing_length = 0.5;  ///< relative to the range
   template <int D>
   static constexpr double norm = D == 1   ? 1.0 / 3
                                  : D == 2 ? 10 / (7 * std::numbers::pi)
@@ -96,8 +97,7 @@ struct CubicSpline {
   }
 };
 
-/// The quintic B-spline: with s = 3q, (3 - s)^5 - 6 (2 - s)^5 + 15 (1 - s)^5, brackets counting where they are
-/// positive.
+/// The quintic B-spline: with s = 3q, (3 - s)^5 - 6 (2 - s)^5 + 15 (1 - s)^5, where negative brackets are zero.
 struct QuinticSpline {
   static constexpr char const* name = "quintic-spline";
   static constexpr double smoothing_length = 1.0 / 3;
@@ -151,7 +151,7 @@ template <class Shape, int D, class Real>
   return {norm * value, norm * inverse_range * inverse_range * slope};
 }
 
-/// The shapes by name, for code that learns them at run time.
+/// The shapes by name, for selection at run time.
 enum class WeightShape { lucy, wendland, cubic_spline, quintic_spline };
 Words<WeightShape> const& weight_words();
 std::string to_string(WeightShape shape);

@@ -1,4 +1,4 @@
-// Rows behind rows.
+// Appends rows.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/loaders/append.hpp>
 

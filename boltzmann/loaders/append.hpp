@@ -1,4 +1,4 @@
-// Appending particles to an ensemble: those that are added while a run goes on.
+// Appending particles to an ensemble during a run.
 //
 //   simulation.add_particles(5, [&] { append(atoms, projectiles); });
 #pragma once
@@ -7,7 +7,7 @@
 
 namespace boltzmann {
 
-/// Puts copies of all particles of `more` behind those of `ensemble`, which keep their numbers. Error if their classes
+/// Appends copies of all particles of `more` to `ensemble`, whose particles keep their numbers. Error if their classes
 /// differ.
 void append(AnyEnsemble& ensemble, AnyEnsemble const& more);
 

@@ -1,4 +1,4 @@
-// A disc as a heap of uniform ones, whose gravity is known.
+// A disc as a sum of uniform ones, whose gravity is known.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/exact_sum.hpp>
 #include <boltzmann/core/vector.hpp>
@@ -15,7 +15,7 @@ namespace {
 
 constexpr double usual_edge = 5;         // radii
 constexpr std::size_t table_size = 200;  // distances
-constexpr int discs_in_heap = 100;       // on either side of a place
+constexpr int discs_in_heap = 100;       // on either side of a point
 
 void check_disc(AnyEnsemble const& ensemble, DiscOptions const& options) {
   if (ensemble.dimension() == 1) throw Error("disc load: on a line there is no disc");
@@ -30,8 +30,8 @@ void check_disc(AnyEnsemble const& ensemble, DiscOptions const& options) {
     throw Error("disc load: a uniform disc ends at its radius; leave the edge out");
 }
 
-/// Of a uniform disc of radius a and surface density 1 / (4 G), in its plane. (Of its potential -E(R/a) a inside, as
-/// from its rings.)
+/// The gravity of a uniform disc of radius a and surface density 1 / (4 G), in its plane. (From its potential -E(R/a) a
+/// inside, and from its rings.)
 double uniform_disc(double a, double R) {
   double const k = R < a ? R / a : a / R;
   if (k == 0) return 0;
@@ -39,7 +39,7 @@ double uniform_disc(double a, double R) {
   return R < a ? inside / k : inside;
 }
 
-/// Two directions across a normal, so that the second is a quarter turn from the first about it.
+/// Two directions normal to this one; the second is a quarter turn from the first about it.
 std::array<Vector<3>, 2> plane_across(Vector<3> normal) {
   double const length = magnitude(normal);
   if (!(length > 0 && std::isfinite(length))) throw Error("disc load: the normal has no direction");
@@ -79,7 +79,7 @@ DiscGravity::DiscGravity(DiscOptions const& options, int dimension)
   if (dimension_ == 2 || options.mass == 0) return;
   table_.resize(table_size + 1);
   for (std::size_t k = 0; k <= table_size; ++k) {
-    double const root = std::min(static_cast<double>(k), table_size - 0.5) / table_size;  // at the edge it is infinite
+    double const root = std::min(static_cast<double>(k), table_size - 0.5) / table_size;  // infinite at the edge
     table_[k] = of_the_disc(edge_ * root * root);
   }
 }
@@ -100,7 +100,7 @@ double DiscGravity::radius_of(double part) const {
   return 0.5 * (low + high);
 }
 
-/// The surface density and how fast it falls, of a disc of mass 1.
+/// The surface density and its slope, for a disc of mass 1.
 std::array<double, 2> DiscGravity::surface(double R) const {
   double const a = options_.radius, y = R / a;
   if (options_.profile == DiscProfile::uniform) return {1 / (pi * a * a), 0};
@@ -112,8 +112,9 @@ std::array<double, 2> DiscGravity::surface(double R) const {
   return {middle * std::exp(-y), middle / a * std::exp(-y)};
 }
 
-/// The acceleration by a disc of mass 1 and G = 1: of uniform discs of all radii a, each as dense as the density falls
-/// there. In a = R -+ L t^3 the logarithm at a = R is gone; far from the middle what lies there is added up apart.
+/// The acceleration by a disc of mass 1 and G = 1: a sum of uniform discs of all radii a, weighted by the decrease of
+/// the density there. The substitution a = R -+ L t^3 removes the logarithm at a = R; discs far from it are added up
+/// separately.
 double DiscGravity::of_the_disc(double R) const {
   double sum = 0;
   auto const add = [&](double from, double to, double power) {

@@ -1,4 +1,4 @@
-// Setting fields, with the refusals of what does not fit.
+// Sets fields, with checks of their values.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/loaders/fields.hpp>
 

@@ -10,7 +10,7 @@
 
 namespace boltzmann {
 
-/// Gives a field the same value in all particles, or in those of `which`. A number is for fields of one component; a
+/// Sets a field to the same value in all particles, or in those of `which`. A number is for fields of one component; a
 /// vector has as many numbers as the field has components. Error if there is no such field, the value does not fit or
 /// is not finite, or a particle of `which` does not exist.
 void set_field(AnyEnsemble& ensemble, std::string_view field, double value);
@@ -19,8 +19,8 @@ void set_field(AnyEnsemble& ensemble, std::string_view field, std::span<double c
 void set_field(AnyEnsemble& ensemble, std::string_view field, std::span<double const> value,
                std::span<std::uint32_t const> which);
 
-/// The particles nearer than `margin` to a face of the block that encloses the ensemble, in order: the boundary atoms
-/// of the 1990 listing A.3, which keep a piece of metal in place. Error if the margin is negative.
+/// The particles nearer than `margin` to a face of the bounding block of the ensemble, in order: the boundary atoms of
+/// the 1990 listing A.3, which hold a piece of metal in place. Error if the margin is negative.
 std::vector<std::uint32_t> edge_particles(AnyEnsemble const& ensemble, double margin);
 
 }  // namespace boltzmann

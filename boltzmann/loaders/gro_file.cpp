@@ -1,4 +1,4 @@
-// Reading GRO files: a title, a number of atoms, lines of fixed columns, and the edges of the box behind them.
+// Reads GRO files: a title, a number of atoms, lines of fixed columns, and the edges of the box.
 #include <boltzmann/loaders/particle_file.hpp>
 #include <boltzmann/loaders/text_lines.hpp>
 
@@ -11,14 +11,14 @@ namespace boltzmann {
 namespace {
 
 constexpr std::size_t first_number = 20;     // after residue, its name, the atom's name and number: 5 letters each
-constexpr std::size_t most_atoms = 100'000;  // whose numbers differ
+constexpr std::size_t most_atoms = 100'000;  // with different numbers
 
 std::string_view trimmed(std::string_view text) {
   auto const words = words_of(text);
   return words.empty() ? std::string_view() : words.front();
 }
 
-/// The width of a number's column: the distance of decimal points, which says how many digits the file has.
+/// The width of a number's column: the distance of decimal points, which gives the digits of the file.
 std::size_t width_of(TextLines const& lines) {
   std::string_view const line = lines.line();
   std::size_t const first = line.find('.', first_number),
@@ -87,7 +87,7 @@ class GroAtoms {
   std::set<std::string> names_;
 };
 
-/// v1(x) v2(y) v3(z), of skew boxes v1(y) v1(z) v2(x) v2(z) v3(x) v3(y) behind them.
+/// v1(x) v2(y) v3(z), for skew boxes followed by v1(y) v1(z) v2(x) v2(z) v3(x) v3(y).
 void read_box(TextLines const& lines, ParticleFrame& frame) {
   auto const words = lines.words();
   if (words.size() != 3 && words.size() != 9)

@@ -1,4 +1,4 @@
-// Internal energies, particle by particle, each from its own stream.
+// Draws internal energies, for each particle from its own stream.
 #include <boltzmann/core/random.hpp>
 #include <boltzmann/laws/invariant_law.hpp>
 #include <boltzmann/loaders/ensemble_seed.hpp>

@@ -1,4 +1,4 @@
-// Reading LAMMPS data: a header of numbers, then sections in any order.
+// Reads LAMMPS data: a header of numbers, then sections in any order.
 #include <boltzmann/core/number.hpp>
 #include <boltzmann/loaders/lammps_styles.hpp>
 #include <boltzmann/loaders/particle_file.hpp>
@@ -25,9 +25,9 @@ std::string_view comment_of(std::string_view line) {
   return words.empty() ? std::string_view() : words.front();
 }
 
-/// What a section that is left aside holds, and how to get it.
+/// A section that is not read: its contents, and how to provide them.
 struct LeftSection {
-  std::string_view name, counted, how;  ///< `counted`: the word of the header that says how many lines it has
+  std::string_view name, counted, how;  ///< `counted`: the word of the header with its number of lines
 };
 constexpr std::array left_sections{
     LeftSection{"Bonds", "bonds", "`bonds` of the ensemble gives them"},
@@ -72,7 +72,7 @@ class DataReader {
   }
 
  private:
-  /// The next line that has words; blank_ tells whether a line without any stands before it.
+  /// Reads the next line with words; blank_: an empty line precedes it.
   bool next_line() {
     blank_ = false;
     while (lines_.next()) {
@@ -83,7 +83,7 @@ class DataReader {
     return false;
   }
 
-  /// A known heading, or words that are no numbers behind a blank line: sections of fixes have any name.
+  /// A known heading, or words that are no numbers after a blank line: sections of fixes have arbitrary names.
   bool is_section() const {
     constexpr std::array alone{"Masses", "Atoms", "Velocities"};
     if (words_.size() == 1 && std::find(alone.begin(), alone.end(), words_[0]) != alone.end()) return true;
@@ -93,7 +93,7 @@ class DataReader {
     return blank_ && std::none_of(words_.begin(), words_.end(), is_number);
   }
 
-  /// The next line of a section; false where another one begins.
+  /// Reads the next line of a section; false at the start of another one.
   bool in_section() {
     if (!next_line()) return false;
     bool const other = is_section();
@@ -189,7 +189,7 @@ class DataReader {
     return found == counts_.end() ? 0 : found->second;
   }
 
-  /// What the header promises and no section holds.
+  /// Error for counts of the header without a section.
   void check_counts() const {
     for (auto const& [section, counted, how] : left_sections)
       if (!counted.empty() && count(std::string(counted)) > 0 && !sections_.contains(std::string(section)))
@@ -220,7 +220,7 @@ class DataReader {
     }
   }
 
-  /// What the comment behind Atoms and the scenario say; they must not differ.
+  /// The comment after Atoms and the scenario may both give the style; they must agree.
   void settle_style() {
     auto const told = comment_of(lines_.line());
     if (told.empty()) return;
@@ -232,7 +232,7 @@ class DataReader {
     if (found) style_ = found;
   }
 
-  /// Five words are atoms of style atomic; more may be of several styles.
+  /// Five words are atoms of style atomic; more words may be of several styles.
   void guess_style() {
     if (words_.size() == 5)
       style_ = find_atom_style("atomic");
@@ -264,7 +264,7 @@ class DataReader {
     if (rows_ < atoms) throw lines_.ended(fmt::format("the section Atoms ends after {} of its {} atoms", rows_, atoms));
   }
 
-  /// The first atom says whether there are image flags.
+  /// The first atom shows whether there are image flags.
   void begin_atoms() {
     columns_ = words_of(style_->columns);
     images_ = words_.size() == columns_.size() + 3;
@@ -323,7 +323,7 @@ class DataReader {
       throw lines_.ended(fmt::format("the section Velocities ends after {} of its {} atoms", rows, order_.size()));
   }
 
-  /// The number of a type, whatever word names it.
+  /// The number of a type, for any of its words.
   std::string number_of(std::string const& word) const {
     for (auto const& [label, type] : types_)
       if (label == word) return type;
@@ -360,7 +360,7 @@ class DataReader {
     }
   }
 
-  /// Of types, or of spheres by their densities.
+  /// Adds the masses of types, or of spheres by their densities.
   void add_masses() {
     FileColumn mass{"mass", 1, {}};
     FileColumn const *density = frame_.find("density"), *diameter = frame_.find("diameter");
@@ -402,14 +402,14 @@ class DataReader {
   std::vector<std::string_view> words_, columns_;
   ParticleFrame frame_;
   AtomStyle const* style_ = nullptr;
-  bool said_ = false;   ///< the scenario says the style
-  bool blank_ = false;  ///< a line without words stands before this one
+  bool said_ = false;   ///< the scenario gives the style
+  bool blank_ = false;  ///< an empty line precedes this one
   bool images_ = false;
   std::size_t width_ = 0, rows_ = 0, vectors_ = 0;
-  std::map<std::string, std::size_t> counts_;  ///< of the header: "atoms", "bonds", "atom types"
+  std::map<std::string, std::size_t> counts_;  ///< from the header: "atoms", "bonds", "atom types"
   std::set<std::string> header_, sections_;
   std::array<bool, 3> edges_{};
-  std::array<double, 3> lengths_{1, 1, 1}, tilt_{};  // LAMMPS' box goes from -0.5 to 0.5 where nothing else is said
+  std::array<double, 3> lengths_{1, 1, 1}, tilt_{};  // LAMMPS' default box is from -0.5 to 0.5
   std::vector<std::pair<std::string, std::string>> types_;
   std::map<std::string, double> masses_;
   std::vector<std::pair<std::int64_t, std::size_t>> order_;

@@ -1,4 +1,4 @@
-// Reading LAMMPS' text dumps: frames of ITEMs, whose atoms have the columns that the last ITEM names.
+// Reads LAMMPS' text dumps: frames of ITEMs, whose atoms have the columns that the last ITEM names.
 #include <boltzmann/loaders/lammps_styles.hpp>
 #include <boltzmann/loaders/particle_file.hpp>
 #include <boltzmann/loaders/text_lines.hpp>
@@ -54,7 +54,7 @@ class DumpReader {
     return false;
   }
 
-  /// What follows "ITEM: " in the next line.
+  /// The text after "ITEM: " in the next line.
   std::string item() {
     std::string const& line = lines_.need("the atoms of a frame");
     constexpr std::string_view start = "ITEM: ";
@@ -119,7 +119,7 @@ class DumpReader {
       box.low[a] = numbers[0], high[a] = numbers[1];
       if (skew) tilt[a] = numbers[2];
     }
-    // What a skew box is bounded by holds its tilts, too.
+    // The bounds of a skew box include its tilts.
     auto const [xy, xz, yz] = tilt;
     box.low[0] -= std::min({0.0, xy, xz, xy + xz}), high[0] -= std::max({0.0, xy, xz, xy + xz});
     box.low[1] -= std::min(0.0, yz), high[1] -= std::max(0.0, yz);
@@ -154,7 +154,7 @@ class DumpReader {
     return numbers;
   }
 
-  /// A column group of three, and whether its numbers are parts of the box.
+  /// A group of three columns, and whether its numbers are fractions of the box.
   struct Places {
     std::array<std::size_t, 3> at{nowhere, nowhere, nowhere};
     bool scaled = false;
@@ -174,14 +174,14 @@ class DumpReader {
     return {};
   }
 
-  /// What the columns of the atoms are.
+  /// The meaning of the columns of atoms.
   struct Columns {
     Places places;
     std::array<std::size_t, 3> speed{};
     bool moves = false;
     std::size_t id, type, element;
     std::vector<std::size_t> others;  ///< single numbers
-    std::vector<bool> numeric;        ///< whether these have been numbers so far
+    std::vector<bool> numeric;        ///< these have been numbers so far
     std::size_t first_other = 1;      ///< of the frame's columns
   };
 
@@ -243,7 +243,7 @@ class DumpReader {
     sort_by_identifier(frame, std::move(order));
   }
 
-  /// More lines than the frame has atoms are no frame.
+  /// Error if the frame has more lines than atoms.
   void need_end_of_frame(std::size_t atoms) {
     if (next_frame() && !lines_.need("a frame").starts_with("ITEM:"))
       throw lines_.error(fmt::format("the frame has more lines than its {} atoms", atoms));

@@ -1,4 +1,4 @@
-// The table of atom styles, as the page "read_data" of LAMMPS' manual has it.
+// The table of atom styles, according to the page "read_data" of LAMMPS' manual.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/loaders/lammps_styles.hpp>
 #include <boltzmann/loaders/text_lines.hpp>

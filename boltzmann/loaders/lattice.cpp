@@ -17,7 +17,7 @@ namespace {
 
 using Place = std::array<double, 3>;
 
-/// A lattice kind in one dimension of space: the edges of its cell and the sites in it, in units of the spacing.
+/// A lattice kind in one dimension of space: the edges of its cell and its sites, in units of the spacing.
 struct Cell {
   Place edges;
   std::vector<Place> sites;
@@ -58,7 +58,7 @@ Cell cell_of(Lattice kind, int dimension) {
                {h + q, q, h + q},
                {q, h + q, h + q}}};
     }
-    case Lattice::hcp: {  // every second layer lies in hollows of the first
+    case Lattice::hcp: {  // every second layer is in hollows of the first
       if (dimension != 3) throw refuse("3D");
       double const row = std::numbers::sqrt3 / 2, hollow = row / 3, layer = std::numbers::sqrt2 / std::numbers::sqrt3;
       return {{1, 2 * row, 2 * layer}, {{0, 0, 0}, {0.5, row, 0}, {0.5, hollow, layer}, {0, row + hollow, layer}}};
@@ -151,7 +151,7 @@ double spacing_for_constant(Lattice kind, int dimension, double lattice_constant
 
 namespace {
 
-/// How many cells there are along each axis.
+/// The number of cells along each axis.
 std::array<double, 3> cells_of(Filling const& filling, int dimension) {
   check(LatticeBlock{filling.kind, filling.spacing, {1, 1, 1}, filling.low}, dimension);
   Cell const cell = cell_of(filling.kind, dimension);
@@ -167,10 +167,10 @@ std::array<double, 3> cells_of(Filling const& filling, int dimension) {
   return cells;
 }
 
-/// Of cells with several sites, the outermost as far from the ends as each other.
+/// For cells with several sites, the outermost are equally far from both ends.
 void fill_cells(Filling const& filling, Cell const& cell, std::array<double, 3> const& cells,
                 std::vector<Place>& places) {
-  Place furthest{0, 0, 0};  // of the sites of a cell, in parts of its edges
+  Place furthest{0, 0, 0};  // of the sites of a cell, relative to its edges
   for (Place const& site : cell.sites)
     for (std::size_t a = 0; a < 3; ++a) furthest[a] = std::max(furthest[a], site[a] / cell.edges[a]);
   for (double z = 0; z < cells[2]; ++z)
@@ -233,9 +233,9 @@ double spacing_for_number(Filling filling, int dimension, std::size_t number) {
   double volume = 1;
   for (int a = 0; a < dimension; ++a) volume *= filling.high[a] - filling.low[a];
   double const even = spacing_for_density(filling.kind, dimension, static_cast<double>(number) / volume);
-  if (dimension == 1) return even;  // any number fits
+  if (dimension == 1) return even;  // any number is possible
   Cell const cell = cell_of(filling.kind, dimension);
-  // Between two of these no count of cells changes.
+  // The numbers of cells are constant between two of these.
   double const from = even / 1.5, to = even * 1.5;
   std::vector<double> changes{from, to};
   for (int a = 0; a < dimension; ++a)

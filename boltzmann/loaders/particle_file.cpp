@@ -1,4 +1,4 @@
-// The table of formats that particles are read from.
+// The table of formats of particle files.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/input_file.hpp>
 #include <boltzmann/core/quantity_text.hpp>
@@ -26,9 +26,9 @@ constexpr std::array formats{
     ParticleFileFormat{"poscar", ".poscar .vasp POSCAR CONTCAR", "VASP", "angstrom, angstrom/fs", from_poscar},
 };
 
-constexpr std::string_view pure_numbers = "lj";  // LAMMPS' word
+constexpr std::string_view pure_numbers = "lj";  // LAMMPS' name
 
-/// By the ending, or the whole name; null if neither is of the table.
+/// By the extension, or the whole name; null if neither is in the table.
 ParticleFileFormat const* format_by_name(std::string const& path) {
   std::filesystem::path const file(without_gz(path));
   std::string const suffix = file.extension().string(), whole = file.filename().string();
@@ -38,7 +38,7 @@ ParticleFileFormat const* format_by_name(std::string const& path) {
   return nullptr;
 }
 
-/// The first lines of a file, of which something is made out by looking.
+/// The first lines of a file, for the detection of its format.
 std::vector<std::string> first_lines(std::string const& path) {
   constexpr std::size_t most = 60;
   TextLines lines(path, "file of particles");
@@ -53,7 +53,7 @@ bool is_count(std::string_view line) {
   return words.size() == 1 && parse_word(words[0], count);
 }
 
-/// Whether the line begins with so many numbers.
+/// True if the line begins with this number of numbers.
 bool has_numbers(std::string_view line, std::size_t count) {
   auto const words = words_of(line);
   double value = 0;
@@ -61,12 +61,12 @@ bool has_numbers(std::string_view line, std::size_t count) {
                                               [&](std::string_view word) { return parse_word(word, value); });
 }
 
-/// The name of the format that the lines look like; empty: none.
+/// The name of the format that matches the lines; empty: none.
 std::string_view format_by_content(std::vector<std::string> const& lines) {
   auto const begins = [&](std::size_t k, std::string_view word) {
     return k < lines.size() && lines[k].starts_with(word);
   };
-  if (lines.empty()) return "xyz";  // whose reader refuses an empty file
+  if (lines.empty()) return "xyz";  // its reader refuses an empty file
   if (begins(0, "ITEM:")) return "lammps-dump";
   for (std::size_t k = 1; k < lines.size(); ++k)
     if (auto const words = words_of(lines[k]); words.size() >= 2 && words[1] == "atoms" && has_numbers(lines[k], 1))
@@ -107,7 +107,7 @@ constexpr UnitStyle ase_style{"ase", "angstrom, amu, eV, e", "angstrom", "amu", 
 
 UnitStyle const& style_of(std::string_view name) { return name == ase ? ase_style : unit_style(name); }
 
-/// The columns that files have units for, in those of a style.
+/// Sets the units of columns, if they are missing, to those of a style.
 void set_units(ParticleFrame& frame, UnitStyle const& style) {
   static constexpr std::array<std::pair<std::string_view, Dimension>, 6> known{
       {{"position", dimensions::length},
@@ -121,7 +121,7 @@ void set_units(ParticleFrame& frame, UnitStyle const& style) {
       if (column.name == name) column.unit = style.unit(dimension);
 }
 
-/// Momenta over masses, those of the file or of the elements, in the units of a style ("lj": pure numbers).
+/// Momenta divided by masses, those of the file or of the elements, in the units of a style ("lj": pure numbers).
 std::vector<double> velocities_of(ParticleFrame const& frame, FileColumn const& momentum, std::string const& style) {
   std::vector<double> masses;
   if (auto const* column = frame.find("mass")) {
@@ -137,7 +137,7 @@ std::vector<double> velocities_of(ParticleFrame const& frame, FileColumn const& 
   return velocities;
 }
 
-/// Momenta, which ASE writes, become velocities if the user says in which units they are.
+/// Momenta, which ASE writes, become velocities if the user gives their units.
 void replace_momenta(ParticleFrame& frame, std::string const& style) {
   auto const momentum = std::find_if(frame.columns.begin(), frame.columns.end(),
                                      [](FileColumn const& column) { return column.name == "momentum"; });
@@ -178,7 +178,7 @@ ParticleFrame from_particle_file(std::string const& path, ParticleFileOptions co
     throw Error(fmt::format("{}: a file of format {} is in {}; leave out the units", path, format.name, format.units));
   if (!options.style.empty() && format.read != from_lammps_data)
     throw Error(fmt::format("{}: an atom style belongs to LAMMPS data; leave it out", path));
-  if (!options.units.empty()) style_of(options.units);  // before the file, its mistakes
+  if (!options.units.empty()) style_of(options.units);  // before the file, so that an invalid style is reported first
   auto frame = format.read(path, options);
   std::string const style = options.units.empty() ? frame.units : options.units;
   replace_momenta(frame, style);

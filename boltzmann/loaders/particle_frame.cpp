@@ -1,4 +1,4 @@
-// Columns of a file into fields of ensembles, with the refusals of what does not fit.
+// Loads columns of a file into fields of ensembles, with checks.
 #include <boltzmann/core/elements.hpp>
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/quantity_text.hpp>
@@ -14,7 +14,7 @@
 namespace boltzmann {
 namespace {
 
-/// A unit of the file in the simulation's. Error if it is of another dimension than what it is for.
+/// A unit of the file in the simulation's. Error if its dimension is wrong.
 double factor_of(std::string const& column, std::string const& unit, Dimension dimension, FrameOptions const& options) {
   if (dimension == dimensions::length && options.length) return *options.length;
   if (dimension == dimensions::velocity && options.velocity) return *options.velocity;
@@ -28,7 +28,7 @@ double factor_of(std::string const& column, std::string const& unit, Dimension d
   return options.units.from_si(quantity.si, dimension);
 }
 
-/// The words that mean a species: its own, and the types of which it is the label.
+/// The words that match a species: its own, and the types of which it is the label.
 std::set<std::string> meanings(ParticleFrame const& frame, std::string const& species) {
   std::set<std::string> words{species};
   for (auto const& [label, type] : frame.labels)
@@ -44,7 +44,7 @@ std::vector<std::size_t> of_species(ParticleFrame const& frame, std::string cons
   return chosen;
 }
 
-/// The field that gets a column; null if none fits.
+/// The field for a column; null if none matches.
 Field const* field_for(AnyEnsemble const& ensemble, FileColumn const& column) {
   Field const* field = ensemble.find_field(column.name);
   if (field == nullptr) return nullptr;
@@ -104,7 +104,7 @@ std::vector<double> element_masses(ParticleFrame const& frame, std::string const
     if (is_new) {
       bool const number = frame.species[i].find_first_not_of("0123456789") == std::string::npos;
       if (!number || frame.labels.empty()) entry->second = element_mass(frame.species[i], units);
-      for (auto const& [label, type] : frame.labels)  // a type's number is not that of an element
+      for (auto const& [label, type] : frame.labels)  // a type's number is not an atomic number
         if (type == frame.species[i] && !entry->second) entry->second = element_mass(label, units);
     }
     if (!entry->second) return {};

@@ -17,7 +17,7 @@ constexpr std::size_t moves_a_site = 20;
 class Path {
  public:
   Path(std::array<std::size_t, 3> const& counts, std::size_t size) : counts_(counts), sites_(size), place_(size) {
-    // To and fro along x, row by row; plane by plane.
+    // Boustrophedon along x, row by row; plane by plane.
     for (std::size_t k = 0; k < size; ++k) {
       std::size_t const row = k / counts[0], plane = row / counts[1];
       std::size_t const x = row % 2 == 0 ? k % counts[0] : counts[0] - 1 - k % counts[0];
@@ -26,8 +26,8 @@ class Path {
     }
   }
 
-  /// Joins an end to one of its neighbours, and cuts the bond by which that would have been reached: the other end of
-  /// that bond is the new end.
+  /// Backbite: joins an end to one of its neighbours, and cuts the bond by which the path would reach it. The other end
+  /// of that bond is the new end.
   void bite(Stream& stream) {
     std::size_t const size = sites_.size();
     bool const head = stream.below(2) == 0;
@@ -46,7 +46,7 @@ class Path {
     sites_[k] = site;
     place_[site] = k;
   }
-  /// One of six; as many as there are sites: there is none.
+  /// One of six; the number of sites if there is none.
   std::size_t neighbour(std::size_t site, std::uint64_t direction) const {
     std::size_t stride = 1;
     for (std::uint64_t a = 0; a < direction / 2; ++a) stride *= counts_[a];

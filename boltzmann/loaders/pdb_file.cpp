@@ -1,4 +1,4 @@
-// Reading PDB files: records of fixed columns (wwPDB's format, version 3.3).
+// Reads PDB files: records of fixed columns (wwPDB's format, version 3.3).
 #include <boltzmann/loaders/particle_file.hpp>
 #include <boltzmann/loaders/text_lines.hpp>
 
@@ -13,7 +13,7 @@
 namespace boltzmann {
 namespace {
 
-/// The columns `first` to `last`, counted from 1, without blanks around them.
+/// The columns `first` to `last`, counted from 1, without surrounding blanks.
 std::string_view columns(std::string_view line, std::size_t first, std::size_t last) {
   if (line.size() < first) return {};
   auto const part = line.substr(first - 1, last - first + 1);
@@ -24,7 +24,7 @@ std::string_view columns(std::string_view line, std::size_t first, std::size_t l
   return part.substr(begin, end - begin);
 }
 
-/// As chemists write it: files have capitals, "NA".
+/// In the usual capitalisation: files have "NA".
 std::string symbol(std::string_view element) {
   std::string text(element);
   for (std::size_t k = 0; k < text.size(); ++k)
@@ -33,7 +33,7 @@ std::string symbol(std::string_view element) {
   return text;
 }
 
-constexpr std::size_t most_numbers = 100'000;  // of five letters, which begin again
+constexpr std::size_t most_numbers = 100'000;  // of five digits, which then restart
 
 /// Reads models, one after the other.
 class PdbReader {
@@ -94,7 +94,8 @@ class PdbReader {
     in_model_ = true;
   }
 
-  /// ENDMDL ends a model; END ends atoms that are in no model (VMD writes frames so), else it means nothing.
+  /// ENDMDL ends a model. END ends atoms that are in no model (VMD writes frames like this), otherwise it has no
+  /// meaning.
   void end_model() {
     if (record_ == "END" && (in_model_ || atoms_ == 0)) return;
     if (!in_model_ && atoms_ == 0) throw lines_.error("ENDMDL without a MODEL or atoms before it");
@@ -106,7 +107,7 @@ class PdbReader {
   double number(std::size_t first, std::size_t last, char const* what) const {
     return lines_.number(columns(lines_.line(), first, last), what);
   }
-  /// 0 where nothing is written.
+  /// 0 if the columns are empty.
   double optional_number(std::size_t first, std::size_t last, char const* what) const {
     return columns(lines_.line(), first, last).empty() ? 0 : number(first, last, what);
   }
@@ -133,7 +134,7 @@ class PdbReader {
     names_.emplace_back(line.substr(6, 21));
   }
 
-  /// "2+", "1-"; 0 where nothing is written.
+  /// "2+", "1-"; 0 if the word is empty.
   double formal_charge(std::string_view word) {
     if (word.size() == 2 && (word[1] == '+' || word[1] == '-') && word[0] >= '0' && word[0] <= '9') {
       ++charges_;
@@ -142,7 +143,7 @@ class PdbReader {
     return 0;
   }
 
-  /// The lattice vectors of edges and angles. A box of 1 angstrom is how files say that there is none.
+  /// The lattice vectors from edges and angles. A box of 1 angstrom means that there is none.
   void read_crystal() {
     std::array<double, 3> edge{}, angle{};
     for (std::size_t a = 0; a < 3; ++a) {
@@ -166,14 +167,14 @@ class PdbReader {
     if (!group.empty() && group != "P 1" && group != "P1") group_ = group;
   }
 
-  /// Of the model that has ended.
+  /// The frame of the model that has ended.
   ParticleFrame finished() {
     if (names_.size() < most_numbers) refuse_copies();
     frame_.elements = elements_ == frame_.species.size();
     for (auto& column : frame_.columns) {
       auto const& values = column.values;
       bool const labels = column.name == "residue" || column.name == "occupancy";
-      if (labels)  // the same for all is no information
+      if (labels)  // equal labels carry no information
         column.used = std::all_of(values.begin(), values.end(), [&](double x) { return x == values.front(); });
     }
     if (charges_ == 0) frame_.columns.pop_back();
@@ -185,7 +186,7 @@ class PdbReader {
     return std::move(frame_);
   }
 
-  /// Number, name, residue and chain of an atom are there once.
+  /// Error if number, name, residue and chain of an atom occur twice.
   void refuse_copies() const {
     std::set<std::string_view> known;
     for (auto const& name : names_)

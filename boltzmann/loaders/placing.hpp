@@ -1,4 +1,4 @@
-// Placing: what loaders that put particles into a box share. Private to this room.
+// Placing: functions of loaders that put particles into a box. Private to this module.
 #pragma once
 
 #include <boltzmann/boundaries/box.hpp>
@@ -18,7 +18,7 @@ inline void check_dimension(AnyEnsemble const& ensemble, Box const& box, char co
                 std::to_string(ensemble.dimension()) + " dimensions, its box has " + std::to_string(box.dimension()));
 }
 
-/// Whether the regions of the box allow a particle there (as Box::check sees it).
+/// True if the regions of the box allow a particle there (by the criteria of Box::check).
 inline bool allowed(Box const& box, double const* x) {
   return std::all_of(box.regions().begin(), box.regions().end(), [&](Region const& region) {
     bool inside = true, strictly_inside = true;
@@ -35,7 +35,7 @@ inline double below_edge(Box const& box, int axis, double x) {
   return x < box.high(axis) ? x : std::nextafter(box.high(axis), box.low(axis));
 }
 
-/// A fraction in (0, 1) of an axis as a position that is surely below the high edge.
+/// A fraction in (0, 1) of an axis as a position that is certainly below the high edge.
 inline double on_axis(Box const& box, int axis, double fraction) {
   return below_edge(box, axis, box.low(axis) + box.length(axis) * fraction);
 }

@@ -1,4 +1,4 @@
-// Drawing a cluster, star by star, each from its own stream.
+// Draws a cluster, star by star, each from its own stream.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/exact_sum.hpp>
 #include <boltzmann/loaders/ensemble_seed.hpp>
@@ -23,14 +23,14 @@ void check(AnyEnsemble const& ensemble, PlummerOptions const& options) {
       throw Error(fmt::format("Plummer load: the {} must be positive, it is {}", what, value));
 }
 
-/// Any direction, as likely as any other.
+/// A direction with uniform distribution.
 std::array<double, 3> direction(Stream& stream) {
   double const height = 2 * stream.uniform() - 1, angle = 2 * pi * stream.uniform();
   double const across = std::sqrt(1 - height * height);
   return {across * std::cos(angle), across * std::sin(angle), height};
 }
 
-/// A part of the velocity of escape, of the density q^2 (1 - q^2)^(7/2), by rejection: it is nowhere above 0.1.
+/// A fraction of the escape velocity, with the density q^2 (1 - q^2)^(7/2), by rejection: its maximum is below 0.1.
 double part_of_escape(Stream& stream) {
   while (true) {
     double const q = stream.uniform(), height = 0.1 * stream.uniform();
@@ -38,7 +38,7 @@ double part_of_escape(Stream& stream) {
   }
 }
 
-/// Moves a vector field of all particles so that its mean is this.
+/// Shifts a vector field of all particles to this mean.
 void set_mean(AnyEnsemble& ensemble, int offset, std::array<double, 3> const& mean) {
   for (int a = 0; a < 3; ++a) {
     ExactSum sum;

@@ -1,4 +1,4 @@
-// Reading VASP's POSCAR: a scale, three edges, kinds and their numbers, then positions, then (of CONTCAR) velocities.
+// Reads VASP's POSCAR: a scale, three edges, kinds and their numbers, then positions, then (in CONTCAR) velocities.
 #include <boltzmann/loaders/particle_file.hpp>
 #include <boltzmann/loaders/text_lines.hpp>
 
@@ -17,7 +17,7 @@ double volume_of(Edges const& e) {
   return e[0] * (e[4] * e[8] - e[5] * e[7]) - e[1] * (e[3] * e[8] - e[5] * e[6]) + e[2] * (e[3] * e[7] - e[4] * e[6]);
 }
 
-/// A positive scale multiplies, a negative one is less the volume.
+/// A positive scale is a factor, a negative one minus the volume.
 Edges read_edges(TextLines& lines, std::array<double, 3>& scale) {
   lines.need("the scale of the lattice");
   auto words = lines.words();
@@ -45,7 +45,7 @@ struct AtomKind {
   std::size_t count;
 };
 
-/// What the kinds are called (by VASP 4 they are not: "1", "2"), and how many particles each has.
+/// The names of kinds (missing in VASP 4: "1", "2"), and the number of particles of each.
 std::vector<AtomKind> read_kinds(TextLines& lines) {
   lines.need("the numbers of atoms");
   std::vector<std::string> names;
@@ -70,14 +70,14 @@ std::vector<AtomKind> read_kinds(TextLines& lines) {
   return kinds;
 }
 
-/// Reads what follows the kinds of atoms.
+/// Reads the part after the kinds of atoms.
 class PoscarReader {
  public:
   PoscarReader(TextLines& lines, ParticleFrame& frame) : lines_(lines), frame_(frame) {}
 
   void read_positions(std::vector<AtomKind> const& kinds, Edges const& edges, std::array<double, 3> const& scale) {
     lines_.need("the positions");
-    bool const selective = letter() == 's';  // Selective dynamics: what may move
+    bool const selective = letter() == 's';  // Selective dynamics: flags of motion
     if (selective) lines_.need("the positions");
     bool const direct = letter() == 'd';
     if (!direct && letter() != 'c' && letter() != 'k')
@@ -105,7 +105,7 @@ class PoscarReader {
           "selective dynamics, by which {} atoms are held (freeze = true in [[ensembles.set]] holds them)", held_));
   }
 
-  /// Velocities, behind a blank line or a word, and what else may follow.
+  /// Velocities, after a blank line or a word, and further parts.
   void read_velocities() {
     if (!lines_.next()) return;
     if (letter() == 'l') {  // Lattice velocities and vectors: a number, three of the first, three of the second
@@ -145,7 +145,7 @@ class PoscarReader {
     auto const words = lines_.words();
     return words.empty() ? ' ' : static_cast<char>(words[0][0] | 0x20);
   }
-  /// Whether one of the words behind x y z is F.
+  /// True if one of the words after x y z is F.
   bool may_not_move(std::vector<std::string_view> const& words) const {
     bool held = false;
     for (std::size_t k = 3; k < 6; ++k) {

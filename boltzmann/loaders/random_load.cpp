@@ -1,4 +1,4 @@
-// Drawing positions and velocities, particle by particle, each from its own stream.
+// Draws positions and velocities, for each particle from its own stream.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/exact_sum.hpp>
 #include <boltzmann/loaders/ensemble_seed.hpp>
@@ -42,7 +42,7 @@ Field const& velocity_field(AnyEnsemble const& ensemble) {
   return velocity;
 }
 
-/// Of the density that the whole box would have.
+/// The number at the density of the whole box.
 double spheres_in(Box const& box, std::size_t count, double diameter) {
   return static_cast<double>(count) * ball_volume(box.dimension(), diameter) / box.volume();
 }
@@ -70,7 +70,7 @@ double minimum_distance_of(AnyEnsemble const& ensemble, Box const& box, RandomLo
   return distance_for_packing(box, ensemble.size(), fraction);
 }
 
-/// Particles that are there already, in cells.
+/// Existing particles, in cells.
 std::deque<PlacedParticles> placed_before(Box const& box, RandomLoadOptions const& options) {
   std::deque<PlacedParticles> all;
   double const distance = options.distance_to_others;
@@ -126,7 +126,7 @@ void random_load(AnyEnsemble& ensemble, Box const& box, RandomLoadOptions const&
     ensemble.appearance.diameter = minimum_distance;
   bool const keep_apart = minimum_distance > 0;
   std::optional<PlacedParticles> placed;
-  std::optional<FreeBlocks> blocks;  // once it has become difficult
+  std::optional<FreeBlocks> blocks;  // once random draws rarely succeed
   if (keep_apart) placed.emplace(ensemble, box, minimum_distance);
   auto const before = placed_before(box, options);
   std::uint64_t const key = ensemble_seed(options.seed, ensemble.name(), "random");
@@ -259,8 +259,7 @@ void barometric_load(AnyEnsemble& ensemble, Box const& box, BarometricOptions co
             fmt::format("gravity load: the regions leave no place for particle {} of '{}'", i, ensemble.name()));
       for (int a = 0; a < last; ++a) x[a] = on_axis(box, a, stream.uniform());
       double const u = stream.uniform();
-      // The fraction of the height below which a share u of the particles is: u = (1 - e^(-heights f)) / (1 -
-      // e^-heights)
+      // The relative height below which a fraction u of the particles is: u = (1 - e^(-heights f)) / (1 - e^-heights)
       double const fraction = heights > 0 ? -std::log1p(u * std::expm1(-heights)) / heights : u;
       x[last] = on_axis(box, last, g < 0 ? 1 - fraction : fraction);
     } while (!allowed(box, x.data()));

@@ -1,4 +1,4 @@
-// Where the next particle may be.
+// Finds a place for the next particle.
 #include <boltzmann/loaders/random_places.hpp>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ PlacedParticles::PlacedParticles(AnyEnsemble const& ensemble, Box const& box, do
   first_.assign(total, nobody);
 }
 
-/// Whether f is true of the place of a particle in the cells around x.
+/// True if f is true for the position of a particle in the cells around x.
 template <class F>
 bool PlacedParticles::any_near(double const* x, F const& f) const {
   std::array<std::array<std::size_t, 3>, 3> near{};

@@ -10,9 +10,9 @@
 namespace boltzmann {
 
 struct RingOptions {
-  double radius = std::numeric_limits<double>::quiet_NaN();  ///< needed
+  double radius = std::numeric_limits<double>::quiet_NaN();  ///< required
   std::array<double, 3> centre{0, 0, 0};
-  std::array<double, 3> normal{0, 0, 1};  ///< in 3D, of any length: the ring goes around it
+  std::array<double, 3> normal{0, 0, 1};  ///< in 3D, of any length: the axis of the ring
   std::int64_t mode = 0;                  ///< the radius is radius (1 + ripple cos(mode angle))
   double ripple = 0;
 };

@@ -31,7 +31,7 @@ Ripple density_of(Box const& box, auto const& options, char const* loader) {
   if (std::abs(amplitude) > 1)
     throw Error(
         fmt::format("{}: the amplitude {} would make the density negative; it is between -1 and 1", loader, amplitude));
-  // From 0 on, so that positions far from 0 cost no accuracy.
+  // Relative to 0, so that positions far from 0 keep their accuracy.
   return {0, box.length(axis), wave_number, phase, amplitude, 1};
 }
 

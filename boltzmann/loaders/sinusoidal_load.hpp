@@ -1,4 +1,4 @@
-// Ripples: particles with a wave in their density or velocity, at random or as a quiet start (appendix A.4 of the 1990
+// Ripples: particles with a wave in their density or velocity, random or as a quiet start (appendix A.4 of the 1990
 // thesis).
 #pragma once
 
@@ -16,7 +16,7 @@ struct Wave {
   double phase = 0;
 };
 
-/// The wave with so many periods in the box. Error if the box has no such axis.
+/// The wave with this number of periods in the box. Error if the box has no such axis.
 Wave wave_of_mode(Box const& box, int axis, double mode, double phase = 0);
 
 struct SinusoidalOptions {
@@ -25,7 +25,7 @@ struct SinusoidalOptions {
   std::uint64_t seed = 1;
 };
 
-/// Positions at random: with a density proportional to 1 + amplitude sin(...) along the wave's axis, uniform along the
+/// Random positions: with a density proportional to 1 + amplitude sin(...) along the wave's axis, uniform along the
 /// others; regions as in random_load. Error if |amplitude| > 1, or if the box has no such axis.
 void sinusoidal_load(AnyEnsemble& ensemble, Box const& box, SinusoidalOptions const& options);
 
@@ -34,8 +34,8 @@ struct QuietOptions {
   double amplitude = 0;
 };
 
-/// The same density without noise (quiet start): particle i stands at the quantile (i + 1/2)/N along the axis, and
-/// along the others evenly, in bit-reversed order and that of base 3. Amplitude 0 is a uniform density. Error as above,
+/// The same density without noise (quiet start): particle i is at the quantile (i + 1/2)/N along the axis, and evenly
+/// spaced along the others, in bit-reversed order and that of base 3. Amplitude 0 is a uniform density. Error as above,
 /// and if the box has regions.
 void quiet_load(AnyEnsemble& ensemble, Box const& box, QuietOptions const& options = {});
 

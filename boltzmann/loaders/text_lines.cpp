@@ -1,4 +1,4 @@
-// Lines, words and numbers, and what is said of those that are none.
+// Lines, words and numbers, and their error messages.
 #include <boltzmann/loaders/text_lines.hpp>
 
 #include <fmt/format.h>

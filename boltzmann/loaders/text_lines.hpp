@@ -1,4 +1,4 @@
-// Text lines: a file of particles read line by line, and its words. Private to this room.
+// Text lines: reads a particle file line by line, and splits words. Private to this module.
 #pragma once
 
 #include <boltzmann/core/error.hpp>
@@ -21,7 +21,7 @@ namespace boltzmann {
 /// The words between blanks.
 std::vector<std::string_view> words_of(std::string_view line);
 
-/// The whole word as a number; false if it is none.
+/// The whole word as a number; false if it is not a number.
 template <class Number>
 bool parse_word(std::string_view word, Number& number) {
   if (word.starts_with('+')) word.remove_prefix(1);
@@ -32,25 +32,25 @@ bool parse_word(std::string_view word, Number& number) {
 /// The lines of a file, with their numbers for messages.
 class TextLines {
  public:
-  /// `what` it is, "XYZ file". Error if it can't be opened.
+  /// `what` describes the file, "XYZ file". Error if it can't be opened.
   TextLines(std::string const& path, std::string_view what);
 
   /// The next line; false at the end.
   bool next();
   /// The next line. Error, "the file ends before WHAT", if there is none.
   std::string const& need(std::string_view what);
-  /// The same line is the next one again.
+  /// Makes the current line the next one again.
   void back() { again_ = true; }
   std::string const& line() const { return line_; }
   std::vector<std::string_view> words() const { return words_of(line_); }
 
-  /// "path:line: what"; of the line after the last one.
+  /// "path:line: what", for the last line.
   Error error(std::string const& what) const;
   Error ended(std::string const& what) const;
 
-  /// A finite number, which `what` says. Error if the word is none.
+  /// A finite number, described by `what`. Error if the word is not one.
   double number(std::string_view word, std::string_view what) const;
-  /// So many finite numbers, the words from `first` on.
+  /// Appends `count` finite numbers, the words from `first` on.
   void numbers(std::vector<std::string_view> const& words, std::size_t first, std::size_t count, std::string_view what,
                std::vector<double>& out) const;
   /// A whole number, 0 or more.
@@ -64,7 +64,7 @@ class TextLines {
   bool again_ = false;
 };
 
-/// Error if a number is there twice, at the line that names it again: identifiers of particles.
+/// Error for duplicate numbers, at the line of the second one: identifiers of particles.
 class Identifiers {
  public:
   void add(TextLines const& lines, std::int64_t id);

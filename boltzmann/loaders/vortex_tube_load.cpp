@@ -22,7 +22,7 @@ struct TubeSection {
 };
 
 TubeSection section_of(VortexTube const& tube) {
-  constexpr double furthest = 3.3;  // standard deviations of what is spread over cells
+  constexpr double furthest = 3.3;  // cut-off of the profile, in standard deviations
   double const wanted = tube.core_radius / std::sqrt(2.0), sides = 2.0 * static_cast<double>(tube.layers) + 1;
   TubeSection section;
   if (tube.layers == 0) {
@@ -30,12 +30,12 @@ TubeSection section_of(VortexTube const& tube) {
     section.core = wanted, section.spacing = wanted / tube.overlap;
     return section;
   }
-  // The cores of the elements widen what is spread over the cells: the squares of both add up to what is wanted.
+  // The cores of the elements widen the profile: the squares of both widths add up to the wanted one.
   double const per_deviation = tube.overlap * std::sqrt(pi) * furthest / sides;
   double const deviation = wanted / std::sqrt(1 + square(per_deviation)), cell = furthest * deviation / sides;
   section.spacing = std::sqrt(pi) * cell;
   section.core = tube.overlap * section.spacing;
-  // Each gets what a Gaussian has in it.
+  // Each cell gets the part of a Gaussian inside it.
   auto const outside = [&](double cells) { return std::exp(-0.5 * square(cells * cell / deviation)); };
   section.cells.push_back({0, 0, 1 - outside(1)});
   for (std::size_t k = 1; k <= tube.layers; ++k) {
@@ -87,7 +87,7 @@ std::size_t vortex_tube_count(double length, VortexTube const& tube) {
 void vortex_tube_load(AnyEnsemble& ensemble, std::function<Vector<3>(double)> const& curve, VortexTube const& tube) {
   if (ensemble.dimension() != 3) throw Error("vortex tube: space has three dimensions there");
   int const vorticity = ensemble.field("vorticity").offset, core = ensemble.field("core").offset;
-  // How long the line is up to each of many points of it.
+  // The arc length up to each of many points of the curve.
   constexpr std::size_t points = 4096;
   std::vector<double> lengths{0};
   for (std::size_t k = 0; k < points; ++k)
@@ -102,7 +102,7 @@ void vortex_tube_load(AnyEnsemble& ensemble, std::function<Vector<3>(double)> co
     double const small = 1e-4;
     return (curve(u + small) - curve(u - small)) * (1 / (2 * small));
   };
-  // The direction across the line is carried along it, turned as little as can be.
+  // The direction across the line is transported along it with the least rotation.
   Vector<3> across{0, 0, 0};
   std::size_t at = 0, k = 0;
   for (std::size_t s = 0; s < sections; ++s) {
@@ -118,7 +118,8 @@ void vortex_tube_load(AnyEnsemble& ensemble, std::function<Vector<3>(double)> co
     across -= tangent * dot(across, tangent);
     across = across * (1 / magnitude(across));
     Vector<3> const up = cross(tangent, across);
-    // Per unit of length the direction turns towards where the line bends: inside the bend vorticity lines are shorter.
+    // Rotation of the direction per unit length, towards the bend of the line: inside the bend vorticity lines are
+    // shorter.
     double const small = 1e-4;
     Vector<3> const before = slope(u - small), after = slope(u + small);
     Vector<3> const bend =

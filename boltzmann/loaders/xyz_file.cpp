@@ -1,4 +1,4 @@
-// Reading XYZ text: lines into columns, columns into fields.
+// Reads XYZ text: lines into columns, columns into fields.
 #include <boltzmann/core/elements.hpp>
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/loaders/particle_file.hpp>
@@ -23,7 +23,7 @@ std::string lower(std::string_view text) {
 /// key=value of a comment line. Values may be in quotes, or be lists in brackets.
 using Attributes = std::vector<std::pair<std::string, std::string>>;
 
-/// The end of the value that begins at `at`, behind its closing quote or bracket.
+/// The end of the value that begins at `at`, after its closing quote or bracket.
 std::size_t end_of_value(std::string_view text, std::size_t at) {
   char const first = at < text.size() ? text[at] : ' ';
   if (first == '"' || first == '\'') return std::min(text.find(first, at + 1), text.size() - 1) + 1;
@@ -81,7 +81,7 @@ std::vector<std::string> list_of(std::string_view value) {
   return words;
 }
 
-/// In which unit the comment says that a column is.
+/// The unit of a column according to the comment.
 std::string unit_of(Attributes const& attributes, std::string const& name) {
   bool const position = name == "pos" || name == "positions" || name == "position";
   return std::string(attribute(attributes, position ? "Length_unit" : name + "_unit").value_or(""));
@@ -97,7 +97,7 @@ std::string standard_word(std::string_view name) {
   return std::string(name);
 }
 
-/// What the words of a particle's line are.
+/// The meaning of the words of a particle's line.
 struct Layout {
   struct Part {
     std::size_t first = 0;   // word number
@@ -107,7 +107,7 @@ struct Layout {
   std::vector<Part> numbers;
   std::optional<std::size_t> species, atomic_number, id;
   std::size_t width = 0;  // words on each line
-  bool exact = true;      // false: the first line says how many there are
+  bool exact = true;      // false: the first line determines their number
 };
 
 /// The number of particles of the next frame; nothing at the end of the file.
@@ -137,7 +137,7 @@ void add_column(TextLines const& reader, ParticleFrame& frame, FileColumn column
   frame.columns.push_back(std::move(column));
 }
 
-/// A property of a type and so many columns.
+/// Adds a property of a type with this number of columns.
 void add_property(TextLines const& reader, std::string const& name, std::string const& type, int components,
                   Attributes const& attributes, Layout& layout, ParticleFrame& frame) {
   constexpr std::string_view names_of_species[] = {"species", "element", "elements", "symbol", "symbols"};
@@ -277,7 +277,7 @@ ParticleFrame from_xyz_file(std::string const& path, std::size_t frame_number) {
       if (wanted) read_particle(reader, layout, frame, identifiers);
     }
     if (!wanted) continue;
-    next_count(reader);  // more lines than the frame has particles are no frame
+    next_count(reader);  // checks that the frame has no further lines
     return frame;
   }
 }

@@ -1,4 +1,4 @@
-// From bonds to what follows from them, always in the same order.
+// Derives angles, dihedrals and pairs from bonds, always in the same order.
 #include <boltzmann/neighbours/bonds.hpp>
 
 #include <boltzmann/core/error.hpp>
@@ -11,7 +11,7 @@
 namespace boltzmann {
 namespace {
 
-/// Of each particle those that it is bonded to, sorted, each once.
+/// For each particle those that it is bonded to, sorted, each once.
 std::vector<std::vector<std::uint32_t>> bonded_to(std::span<BondMembers const> bonds) {
   std::size_t size = 0;
   for (auto const& bond : bonds) size = std::max<std::size_t>(size, std::max(bond[0], bond[1]) + std::size_t{1});

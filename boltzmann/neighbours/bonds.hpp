@@ -1,4 +1,4 @@
-// Bonds: which particles of an ensemble are joined, and the angles, dihedrals and near relations that follow from them.
+// Bonds: the bonded pairs of an ensemble, and the angles, dihedrals and near pairs that follow from them.
 #pragma once
 
 #include <boltzmann/neighbours/connection.hpp>
@@ -24,14 +24,14 @@ using DihedralMembers = std::array<std::uint32_t, 4>;
 /// Error unless `size` is a whole number of chains.
 std::vector<BondMembers> chain_bonds(std::size_t size, std::size_t length);
 
-/// What holds for the first molecule of `length` particles, for all of them, one behind the other. Error if a number is
-/// beyond the molecule, or `size` is no whole number of molecules.
+/// Repeats the tuples of the first molecule of `length` particles for all following molecules. Error if a number is
+/// beyond the molecule, or `size` is no multiple of `length`.
 template <std::size_t N>
 std::vector<std::array<std::uint32_t, N>> repeated(std::vector<std::array<std::uint32_t, N>> const& first,
                                                    std::size_t length, std::size_t size);
 
-/// Error if a bond, angle or dihedral is named twice, forwards or backwards. `place(k)` says where tuple k stands, `what`
-/// which list it is: "angles of 'm'". (Terms of several laws on the same particles are lists of their own.)
+/// Error if a bond, angle or dihedral is listed twice, forwards or backwards. `place(k)` describes the position of
+/// tuple k, `what` the list: "angles of 'm'". (Terms of several laws on the same particles are lists of their own.)
 template <std::size_t N>
 void refuse_repeated(std::vector<std::array<std::uint32_t, N>> const& tuples,
                      std::function<std::string(std::size_t k)> const& place, std::string_view what);
@@ -45,7 +45,7 @@ std::vector<AngleMembers> angles_along(std::span<BondMembers const> bonds);
 /// All i-j-k-l with bonds i-j, j-k and k-l of four particles, in the order of the bond j < k, then i, then l.
 std::vector<DihedralMembers> dihedrals_along(std::span<BondMembers const> bonds);
 
-/// The pairs i < j that are so many bonds apart (by the shortest way), in order. Error if `apart` is 0.
+/// The pairs i < j whose shortest connection has `apart` bonds, in order. Error if `apart` is 0.
 std::vector<BondMembers> pairs_apart(std::span<BondMembers const> bonds, std::size_t apart);
 
 }  // namespace boltzmann

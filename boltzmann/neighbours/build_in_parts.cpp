@@ -1,10 +1,10 @@
-// Lists over the ranks of a team, built without any rank that knows all particles: ranks agree on where rows lie in the
-// order of all, particles go to whoever advances or reads them, and each rank sorts those alone.
+// Builds lists over the ranks of a team without any rank that has all particles. Ranks agree on the global order of
+// rows, particles are sent to the ranks that own or read them, and each rank sorts its own.
 //
-// The order of rows is that of cells, and cells run along the first axis fastest. So a rank's share are runs of grid
-// lines (in 1D of cells): here *units*, of which every rank knows how many particles each has. What others need of a
-// unit is then geometry. One run for each rank is a layer of space, cut anywhere; where there are many ranks, they get
-// columns of whole units.
+// Rows are in the order of cells, and cells run along the first axis fastest. So the rows of a rank are runs of grid
+// lines (in 1D of cells), here called *units*. All ranks have the number of particles in each unit. Geometry then
+// determines the ranks that need a unit. With one run per rank, a rank has a layer of space, cut anywhere. With many
+// ranks each has columns of whole units.
 #include <boltzmann/core/in_dimension.hpp>
 #include <boltzmann/neighbours/neighbourhood.hpp>
 #include <boltzmann/neighbours/shares_of_space.hpp>
@@ -21,14 +21,14 @@ namespace boltzmann {
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
-/// How far those are known whom lists may be asked for: more than the rounding of the positions with which these are
-/// found, and what rows may go before they get new references.
+/// The distance up to which a rank has the neighbours of a row: the reach, plus the rounding of the single-precision
+/// search, plus the margin by which rows may move before they get new references.
 double wide(double reach, double margin) {
-  constexpr double rounding = 1e-5;  // of the reach
+  constexpr double rounding = 1e-5;  // relative to the reach
   return reach * (1 + rounding) + margin;
 }
 
-/// Particles of an ensemble as bits, which come out in ascending order.
+/// A set of particle numbers as bits, which yields them in ascending order.
 class Numbers {
  public:
   explicit Numbers(std::size_t size) : words_(size / 64 + 1) {}
@@ -49,10 +49,10 @@ struct Interval {
   double low, high;
   bool operator==(Interval const&) const = default;
   double distance(Interval const& other) const { return std::max(std::max(0.0, low - other.high), other.low - high); }
-  /// Of the point of the other one that is furthest away.
+  /// The largest distance from this interval of a point in the other one.
   double furthest(Interval const& other) const { return std::max(std::max(0.0, low - other.low), other.high - high); }
 };
-/// Of space along the axes that tell units apart: the second and the third one, in 1D the first.
+/// A region in the plane of the axes that distinguish units: the second and the third axis, in 1D the first.
 using Place = std::array<Interval, 2>;
 
 double distance2(Place const& a, Place const& b) {
@@ -71,7 +71,7 @@ Interval image_of(Images const& images, int axis, int turns, Interval const& x) 
   double const low = images.at(axis, turns, x.low), high = images.at(axis, turns, x.high);
   return {std::min(low, high), std::max(low, high)};
 }
-/// Where an interval along an axis is seen, and by how many turns of images.
+/// An image of an interval along an axis, and its index.
 struct Seen {
   int turns;
   Interval at;
@@ -83,16 +83,16 @@ std::vector<Seen> images_of(Images const& images, int axis, double reach, Interv
   return all;
 }
 
-/// Who reads particles of a unit: all of them, or those near these places, which are where a particle has to be for it,
-/// or an image of it, to be near what the rank has.
+/// A rank that reads particles of a unit: all of them, or those near these places. A particle, or an image of it, is
+/// there if it is near a row of the rank.
 struct Reader {
   std::size_t rank;
   bool all;
   SortedCopy::NearPlaces near;
 };
 
-/// Adds what is near of these places; back(n, turns, interval) is where a particle is, along axis n of them, whose image
-/// by these turns is there. True if they are within the distance of all that is in the unit.
+/// Adds the regions that are near these places; back(n, turns, interval) maps an image interval by these turns back to
+/// particles, along axis n. True if all that is in the unit is within the distance.
 template <class Back>
 bool add_near(std::vector<Place> const& places, std::vector<Seen> const& inner, std::vector<Seen> const& outer,
               Back const& back, SortedCopy::NearPlaces& near) {
@@ -100,7 +100,7 @@ bool add_near(std::vector<Place> const& places, std::vector<Seen> const& inner, 
     for (auto const& b : outer) {
       double const across = place[1].distance(b.at);
       if (across * across > near.square) continue;
-      if (b.turns != 0 && place[1].low == -infinite) continue;  // it is as far from all images
+      if (b.turns != 0 && place[1].low == -infinite) continue;  // all images are equally far
       for (auto const& a : inner) {
         if (a.turns != 0 && place[0].low == -infinite) continue;
         if (distance2(place, {a.at, b.at}) > near.square) continue;
@@ -111,10 +111,10 @@ bool add_near(std::vector<Place> const& places, std::vector<Seen> const& inner, 
   return false;
 }
 
-/// What all ranks have to agree on.
+/// Bounds that all ranks have to agree on.
 struct Extents {
   Bounds rows, images;
-  double count = 0;  ///< of images
+  double count = 0;  ///< number of images
 
   void add(Extents const& other) {
     rows.take(other.rows);
@@ -129,7 +129,7 @@ Extents nothing() {
   return none;
 }
 
-/// Of rows, D numbers each, and their images.
+/// The bounds of rows, D numbers each, and of their images.
 template <int D>
 Extents extents_of(Box const& box, double reach, double const* rows, std::size_t count) {
   Images const images(box);
@@ -163,23 +163,24 @@ Extents extents_of(Box const& box, double reach, double const* rows, std::size_t
 
 }  // namespace
 
-/// One sorted copy, and what all ranks know of its rows.
+/// One sorted copy, and the data on its rows that all ranks share.
 struct Neighbourhood::Sorting {
   SortedCopy* copy;
-  std::vector<std::uint32_t> own;         ///< numbers of this rank's particles before, ascending
-  std::unique_ptr<double[]> references;   ///< theirs
-  std::vector<std::uint32_t> cell, unit;  ///< in which each of them is
+  std::vector<std::uint32_t> own;         ///< numbers of this rank's particles before the build, ascending
+  std::unique_ptr<double[]> references;   ///< of these particles
+  std::vector<std::uint32_t> cell, unit;  ///< cell and unit of each of them
   Extents extents = nothing();
-  Grid grid, cells;  ///< that sorts rows, and that lists are found with
+  Grid grid, cells;  ///< of the order of rows, and of the neighbour search
   int dimension = 1;
-  std::vector<std::size_t> start;  ///< the first row of each unit, and one more
+  std::vector<std::size_t> start;  ///< the first row of each unit, and the end
   struct Run {
     std::size_t first, rank;
   };
-  std::vector<Run> runs;                    ///< of rows of one rank, ascending; at the end one that begins behind all
+  std::vector<Run> runs;                    ///< of rows of one rank, ascending; terminated by one at the end of all
+                                            ///< rows
   std::vector<std::vector<Place>> places;   ///< of each rank: where its rows may be
-  std::vector<std::vector<Place>> read_at;  ///< of each rank: where those are whose lists are of these rows
-  double wide = 0;                          ///< from how far
+  std::vector<std::vector<Place>> read_at;  ///< of each rank: where the rows are whose lists may have these rows
+  double wide = 0;                          ///< distance of such reads
   bool read_by_itself = false;
 
   std::array<int, 2> axes() const { return dimension == 1 ? std::array{0, 1} : std::array{1, 2}; }
@@ -200,7 +201,7 @@ struct Neighbourhood::Sorting {
     else
       places.push_back(place);
   }
-  /// Where units [first, last] of one line of them are.
+  /// The places of units [first, last] of one line.
   void add_line(std::int64_t line, std::int64_t first, std::int64_t last, std::vector<Place>& places) const {
     Interval const across = cells_along(1, line, line);
     for (std::int64_t begin = first, end = first; begin <= last; begin = end) {
@@ -209,14 +210,14 @@ struct Neighbourhood::Sorting {
       add_place({cells_along(0, begin, end - 1), across}, places);
     }
   }
-  /// Where the rows of each rank may be.
+  /// The places of the rows of each rank.
   std::vector<std::vector<Place>> places_of_ranks(std::size_t ranks) const {
     std::vector<std::vector<Place>> places(ranks);
     for (auto run = runs.begin(); run + 1 != runs.end(); ++run)
       if (run->first < run[1].first) add_places(run->first, run[1].first, places[run->rank]);
     return places;
   }
-  /// Where these rows may be.
+  /// The places of these rows.
   void add_places(std::size_t begin, std::size_t end, std::vector<Place>& places) const {
     auto const unit_at = [&](std::size_t row) {
       return std::upper_bound(start.begin(), start.end(), row) - start.begin() - 1;
@@ -235,7 +236,7 @@ struct Neighbourhood::Sorting {
                                       [](std::size_t k, Run const& run) { return k < run.first; }))
         ->rank;
   }
-  /// The indices of units along an axis in the order of space.
+  /// The indices of units along an axis in spatial order.
   std::vector<std::int64_t> in_space(int n) const {
     std::vector<std::int64_t> order(static_cast<std::size_t>(along(n)));
     for (std::size_t k = 0; k < order.size(); ++k) order[k] = static_cast<std::int64_t>(k);
@@ -244,7 +245,8 @@ struct Neighbourhood::Sorting {
                 [&](auto a, auto b) { return grid.unfolded(axes()[n], a) < grid.unfolded(axes()[n], b); });
     return order;
   }
-  /// Adds how many entries these lists had of own particles, of which we know the rows then, and what one takes besides.
+  /// Adds to `work` the number of entries of these lists for own particles, whose rows are known then, and the work per
+  /// row.
   void add_work(std::deque<List> const& lists, std::vector<std::uint32_t> const* row_of, std::int64_t* work) const {
     auto const around = static_cast<std::int64_t>(work_around(*copy, own.size())), all = std::ssize(unit);
     for (std::int64_t k = 0, done = 0; k < all; ++k) {
@@ -259,7 +261,8 @@ struct Neighbourhood::Sorting {
         if (std::uint32_t const row = (*row_of)[own[k]]; row < one.list.size()) work[unit[k]] += length[row];
     }
   }
-  /// References of these particles, ascending, and their cells: of those that were this rank's before they are known.
+  /// References of these particles, ascending, and their cells. Particles that this rank owned before are taken from
+  /// its own.
   std::vector<std::uint32_t> find(std::vector<std::uint32_t> const& numbers, std::unique_ptr<double[]>& all,
                                   int threads) const {
     std::vector<std::uint32_t> come(numbers.size()), place_of_come(numbers.size()), cells(numbers.size());
@@ -289,7 +292,7 @@ struct Neighbourhood::Sorting {
     });
     return cells;
   }
-  /// Rows of consecutive units that have one owner.
+  /// Runs of rows of consecutive units with one owner.
   void run_by_units(std::vector<std::uint16_t> const& owner) {
     for (std::size_t u = 0; u < owner.size(); ++u)
       if (runs.empty() || runs.back().rank != owner[u]) runs.push_back({start[u], owner[u]});
@@ -308,7 +311,7 @@ struct Neighbourhood::Sorting {
   }
 };
 
-/// References of this rank's particles, and how far all ranks' reach.
+/// References of this rank's particles, and the bounds over all ranks.
 void Neighbourhood::agree_on_extents(std::vector<Sorting>& all, double reach) {
   for (auto& one : all) {
     AnyEnsemble const& ensemble = one.copy->ensemble();
@@ -334,7 +337,8 @@ void Neighbourhood::agree_on_extents(std::vector<Sorting>& all, double reach) {
     }
 }
 
-/// The grids, how many rows each unit has, and whose rows are. False if cells are folded, so that a unit has no place.
+/// Determines the grids, the number of rows in each unit, and the owners of rows. False if cells are folded, so that
+/// units have no definite place.
 bool Neighbourhood::agree_on_order(std::vector<Sorting>& all, double reach) {
   for (auto& one : all) {
     std::size_t const size = one.copy->ensemble().size();
@@ -345,7 +349,7 @@ bool Neighbourhood::agree_on_order(std::vector<Sorting>& all, double reach) {
     one.cells = Cells::grid_for(one.dimension, extents.images, size + static_cast<std::size_t>(extents.count), reach);
     if (one.grid.is_folded) return false;
   }
-  // As many for all, so that what interacts is shared out alike.
+  // One decomposition for all copies, so that interacting particles have the same owner. It follows the largest one.
   auto const& largest = *std::max_element(all.begin(), all.end(), [](auto const& a, auto const& b) {
     return a.copy->ensemble().size() < b.copy->ensemble().size();
   });
@@ -382,8 +386,8 @@ bool Neighbourhood::agree_on_order(std::vector<Sorting>& all, double reach) {
   return true;
 }
 
-/// Where rows are read, and from how far until the next build: those that get new references in between have gone no
-/// further than the margin, or all ranks come to know all.
+/// Finds the ranks that read rows, and from which distance, until the next build. Rows that get new references in
+/// between have moved no further than the margin; otherwise all ranks gather all particles.
 void Neighbourhood::find_who_reads(std::vector<Sorting>& all, double reach) const {
   for (auto& source : all) {
     source.wide = wide(reach, margin());
@@ -399,7 +403,7 @@ void Neighbourhood::find_who_reads(std::vector<Sorting>& all, double reach) cons
   }
 }
 
-/// To which ranks this rank's particles go: those that advance them or read them.
+/// The ranks to which this rank's particles are sent: their new owners and their readers.
 std::vector<std::vector<std::uint32_t>> Neighbourhood::readers(Sorting const& one) const {
   auto const ranks = static_cast<std::size_t>(division_->team().size());
   Images const images(*box_);
@@ -407,7 +411,7 @@ std::vector<std::vector<std::uint32_t>> Neighbourhood::readers(Sorting const& on
   auto const seen = [&](int n, Interval const& x) {
     return axes[n] < one.dimension ? images_of(images, axes[n], one.wide, x) : std::vector<Seen>{{0, x}};
   };
-  // A wall's image has the particle as its image, others by as many turns back.
+  // A wall's image maps back by the same wall, other images by the opposite turns.
   auto const back = [&](int n, int turns, Interval const& x) {
     return turns == 0 ? x : image_of(images, axes[n], box_->periodic(axes[n]) ? -turns : turns, x);
   };
@@ -418,7 +422,7 @@ std::vector<std::vector<std::uint32_t>> Neighbourhood::readers(Sorting const& on
     auto const n = one.along(0), at = static_cast<std::int64_t>(unit);
     auto const inner = seen(0, one.cells_along(0, at % n, at % n)), outer = seen(1, one.cells_along(1, at / n, at / n));
     for (std::size_t r = 0; r < ranks; ++r) {
-      // Whose a particle is in a unit that is cut is known to those who have the whole unit.
+      // In a unit that is cut, the ranks that have the whole unit determine the owner of a particle.
       bool const owns = r >= first && r <= last;
       SortedCopy::NearPlaces near{.places = {}, .axes = axes, .square = one.wide * one.wide};
       bool const all = add_near(one.read_at[r], inner, outer, back, near);
@@ -441,7 +445,7 @@ std::vector<std::vector<std::uint32_t>> Neighbourhood::readers(Sorting const& on
   return to;
 }
 
-/// This rank's part of a build, from the particles that it knows now.
+/// Builds this rank's part from the particles that it has now.
 void Neighbourhood::build_part(Sorting const& one, std::vector<std::uint32_t> numbers, std::size_t e, double reach,
                                int threads) {
   auto const rank = static_cast<std::size_t>(division_->team().rank());
@@ -465,9 +469,9 @@ void Neighbourhood::build_part(Sorting const& one, std::vector<std::uint32_t> nu
     }
   part.particles = std::move(numbers);
   auto places = one.read_at[rank];
-  if (!one.read_by_itself)  // but it is asked who is near a place
+  if (!one.read_by_itself)  // owned_near() searches near its own rows, too
     places.insert(places.end(), one.places[rank].begin(), one.places[rank].end());
-  // Most are found near whole lines, if these are asked first.
+  // Most are near whole lines, so test these first.
   std::stable_partition(places.begin(), places.end(), [](Place const& place) { return place[0].low == -infinite; });
   part.near.axes = one.axes();
   part.near.square = one.wide * one.wide;
@@ -481,7 +485,7 @@ void Neighbourhood::build_part(Sorting const& one, std::vector<std::uint32_t> nu
 }
 
 bool Neighbourhood::build_in_parts(int threads) {
-  // Where all know all there is nothing to send.
+  // If all ranks have all particles, there is nothing to send.
   if (division_->is_whole() || also_read_ || division_->needs_all()) return false;
   if (box_->sheared()) return false;  // rows near an end have images anywhere along the flow
   double const reach = longest_cutoff() + skin();
@@ -505,7 +509,7 @@ bool Neighbourhood::build_in_parts(int threads) {
   return true;
 }
 
-/// Where only parts were known: from the references of all, which have been gathered.
+/// Leaves the state of parts: builds from the references of all particles, which have been gathered.
 void Neighbourhood::become_whole(int threads) {
   double const reach = longest_cutoff() + skin();
   for (auto& copy : copies_) {
@@ -534,11 +538,11 @@ void Neighbourhood::become_whole(int threads) {
   ++version_;
 }
 
-/// Rows that get new references become known to all ranks, as they are now: `moved` becomes that of all.
+/// Broadcasts rows that get new references, in their current state: `moved` becomes the list over all ranks.
 void Neighbourhood::tell_moved(std::vector<Moved>& moved) {
   auto const D = static_cast<std::size_t>(box_->dimension());
   auto const size = [](SortedCopy const& copy) { return copy.ensemble().doubles(); };
-  std::vector<double> mine;  // of each copy, row, particle, whether it is further than the margin, reference, numbers
+  std::vector<double> mine;  // of each copy: row, particle, whether it is further than the margin, reference, numbers
   for (std::size_t e = 0; e < copies_.size(); ++e)
     for (std::uint32_t const k : moved[e].rows) {
       std::uint32_t const i = copies_[e].order()[k];
@@ -552,7 +556,7 @@ void Neighbourhood::tell_moved(std::vector<Moved>& moved) {
   Team& team = division_->team();
   team.meet(Team::Occasion::gathers);
   auto const all = team.gather({reinterpret_cast<char const*>(mine.data()), mine.size() * sizeof mine[0]});
-  std::vector<std::vector<std::uint32_t>> of_all(moved.size());  // the rows that they have among all
+  std::vector<std::vector<std::uint32_t>> of_all(moved.size());  // their rows in the global order
   for (auto& one : moved) one.rows.clear();
   bool too_far = false;
   struct Told {
@@ -560,7 +564,7 @@ void Neighbourhood::tell_moved(std::vector<Moved>& moved) {
     double const* at;
   };
   std::vector<std::vector<double>> numbers(all.size());
-  std::vector<Told> told;  // in the order of rows, as one rank finds them
+  std::vector<Told> told;  // in the order of rows, as on one rank
   for (std::size_t r = 0; r < all.size(); ++r) {
     numbers[r].resize(all[r].size() / sizeof(double));
     if (!numbers[r].empty()) std::memcpy(numbers[r].data(), all[r].data(), all[r].size());
@@ -584,7 +588,7 @@ void Neighbourhood::tell_moved(std::vector<Moved>& moved) {
     moved[e].rows.push_back(row);
     of_all[e].push_back(k);
   }
-  // Around those that have gone further than a margin some are not known.
+  // Some neighbours of rows that have moved further than the margin are not here.
   if (!is_part() || !too_far) return;
   division_->make_whole();
   become_whole(1);

@@ -7,8 +7,8 @@
 namespace boltzmann {
 namespace {
 
-// Edges of a cell in units of the reach: long runs along the first axis are cut to measure, the others tell rows of
-// cells that are out of reach.
+// Edges of a cell in units of the reach. Long runs along the first axis can be cut precisely; along the others, rows of
+// cells that are out of reach are excluded.
 constexpr double first_edge = 0.25, other_edge = 0.5;
 
 }  // namespace
@@ -38,8 +38,8 @@ Bounds Bounds::of(int dimension, double const* rows, std::size_t stride, std::si
 Grid Cells::grid_for(int dimension, Bounds const& extent, std::size_t count, double reach) {
   Grid grid;
   grid.dimension = dimension;
-  // Not many more cells than points: those of far-away particles are folded onto the others.
-  double const most = std::min(4.0 * static_cast<double>(count) + 64, 4e9);  // and numbers of 32 bits
+  // Not many more cells than points: those of distant particles are folded onto the others.
+  double const most = std::min(4.0 * static_cast<double>(count) + 64, 4e9);  // numbers have 32 bits
   std::array<double, 3> along{1, 1, 1};
   for (int a = 0; a < dimension; ++a) {
     grid.edge[a] = reach * (a == 0 ? first_edge : other_edge);
@@ -52,7 +52,7 @@ Grid Cells::grid_for(int dimension, Bounds const& extent, std::size_t count, dou
   }
   for (int a = 0; a < dimension; ++a) {
     grid.count[a] = static_cast<std::int64_t>(along[a]);
-    // What near() asks of the largest block, and where points have no cell of their own.
+    // The largest number of cells that near() needs for the largest block; points beyond have no cell of their own.
     double const largest = (2 + largest_block[a]) * reach * grid.inverse_edge[a] + 3;
     bool const folds = grid.folds(a, extent.low[a], extent.high[a]);
     grid.by_number[a] = along[a] < largest || folds;
@@ -68,9 +68,9 @@ Cells::Cells(Grid const& grid, std::span<std::uint32_t const> cell_of_point, dou
       start_(std::make_unique_for_overwrite<std::uint32_t[]>(grid.cells() + 2)),
       items_(cell_of_point.size()) {
   auto const along = static_cast<std::uint32_t>(grid.count[0]);
-  std::vector<char> used(grid.cells() / along);  // lines of cells, of which a part of all points leaves most empty
+  std::vector<char> used(grid.cells() / along);  // lines of cells; on a rank with part of all points most are empty
   for (auto const cell : cell_of_point) used[cell / along] = 1;
-  // First start[c] is how many there are in cell c, then where it ends.
+  // First start[c] is the number of points in cell c, then its end.
   std::uint32_t *const start = start_.get() + 2, *line = start;
   start_[0] = start_[1] = 0;
   for (char const any : used) {
@@ -86,7 +86,7 @@ Cells::Cells(Grid const& grid, std::span<std::uint32_t const> cell_of_point, dou
       std::fill_n(line, along, before);
     line += along;
   }
-  // start_[c + 1] runs through the places of cell c, and ends where cell c + 1 begins.
+  // start_[c + 1] runs through cell c, and ends at the beginning of cell c + 1.
   for (std::uint32_t i = 0; auto const cell : cell_of_point) items_[start_[cell + 1]++] = i++;
 }
 

@@ -1,4 +1,4 @@
-// Cells: points sorted into a grid, so that what is near can be found without asking everyone.
+// Cells: points sorted into a grid, for fast searches of near points.
 #pragma once
 
 #include <boltzmann/core/in_dimension.hpp>
@@ -15,7 +15,7 @@
 
 namespace boltzmann {
 
-/// Between which coordinates points are.
+/// The range of the coordinates of points.
 struct Bounds {
   std::array<double, 3> low{}, high{};
   void take(int axis, double x) { low[axis] = std::min(low[axis], x), high[axis] = std::max(high[axis], x); }
@@ -25,28 +25,28 @@ struct Bounds {
       high[a] = std::max(high[a], other.high[a]);
     }
   }
-  /// Of points at rows + i * stride, i < count; zero of none.
+  /// The bounds of points at rows + i * stride, i < count; zero if there are none.
   static Bounds of(int dimension, double const* rows, std::size_t stride, std::size_t count);
 };
 
-/// The cells of `count` points, at(i) where point i is.
+/// Finds the cells of `count` points; at(i) is the position of point i.
 template <class At>
 void find_cells(Grid const& of, std::size_t count, At const& at, std::uint32_t* cell, int threads = 1) {
   constexpr std::size_t points_per_task = 2048;
   in_dimension(of.dimension, [&](auto D) {
     for_ranges(count, points_per_task, threads, [&](std::size_t begin, std::size_t end) {
-      Grid grid = of;  // known to nobody else, so that it stays in registers
+      Grid grid = of;  // a local copy, which the compiler keeps in registers
       grid.dimension = D;
       for (std::size_t i = begin; i < end; ++i) cell[i] = static_cast<std::uint32_t>(grid.cell_of(at(i)));
     });
   });
 }
-/// The same, at rows + i * stride.
+/// The same for points at rows + i * stride.
 std::vector<std::uint32_t> cells_of(Grid const& grid, double const* rows, std::size_t stride, std::size_t count,
                                     int threads = 1);
 
-/// A grid fine enough to find what is within `reach`, and the points in each cell. The number of cells is kept in
-/// proportion to the number of points, whatever their extent.
+/// A grid fine enough for searches within `reach`, and the points in each cell. The number of cells is bounded by a
+/// multiple of the number of points, for any extent.
 class Cells {
  public:
   Cells() = default;
@@ -54,12 +54,12 @@ class Cells {
   Cells(int dimension, double const* rows, std::size_t stride, std::size_t count, double reach, int threads = 1)
       : Cells(grid_for(dimension, Bounds::of(dimension, rows, stride, count), count, reach), rows, stride, count, reach,
               threads) {}
-  /// The same in a grid that is given, and of points whose cells in it are known.
+  /// The same with a given grid, and with known cells of points.
   Cells(Grid const& grid, double const* rows, std::size_t stride, std::size_t count, double reach, int threads)
       : Cells(grid, cells_of(grid, rows, stride, count, threads), reach) {}
   Cells(Grid const& grid, std::span<std::uint32_t const> cell_of_point, double reach);
 
-  /// The grid for so many points of that extent.
+  /// The grid for this number of points of that extent.
   static Grid grid_for(int dimension, Bounds const& extent, std::size_t count, double reach);
 
   /// The points in cell order, those of one cell in the order they were given.
@@ -69,12 +69,13 @@ class Cells {
   std::uint32_t const* start() const { return start_.get(); }
   std::size_t bytes() const { return (grid_.cells() + 1 + items_.capacity()) * sizeof start_[0]; }
 
-  /// Whether cells in another grid, for the same points, follow from those in this one.
+  /// True if cells in another grid follow from those in this one, for the same points.
   bool tell_cells_in(Grid const& other) const;
-  /// If so: those of items(), in their order.
+  /// If so: the cells of items(), in their order.
   void cells_in(Grid const& other, std::uint32_t* cell_of_item) const;
 
-  /// Calls visit(begin, end) for ranges of items() that hold every point within `reach` of x (and some further ones).
+  /// Calls visit(begin, end) for ranges of items() that contain every point within `reach` of x (and some further
+  /// ones).
   template <class Visit>
   void near(double const* x, double reach, Visit visit) const {
     grid_.near(x, reach, [&](std::size_t first, std::size_t last) { visit(start_[first], start_[last + 1]); });

@@ -1,4 +1,4 @@
-// From i:j:k to a list of partners.
+// Converts connections (first : last : interval) to a list of partners.
 #include <boltzmann/neighbours/connection.hpp>
 
 #include <boltzmann/core/error.hpp>
@@ -10,7 +10,7 @@
 namespace boltzmann {
 namespace {
 
-/// The connections that have this pair.
+/// Names the connections that have this pair.
 std::string naming(std::span<Connection const> connections, std::size_t i, std::size_t j) {
   std::string text;
   for (std::size_t k = 0; k < connections.size(); ++k) {

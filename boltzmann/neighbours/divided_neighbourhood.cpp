@@ -1,6 +1,6 @@
-// Lists over the ranks of a team: each rank has the lists of a stretch of all rows, in the order in which they are
-// sorted, and between builds hears of those rows that they name. Builds where every rank knows all particles; those in
-// parts are in build_in_parts.cpp.
+// Lists over the ranks of a team. Each rank has the lists of a range of all rows, in sorted order. Between builds it
+// receives the rows that its lists name. This file builds lists if every rank has all particles; build_in_parts.cpp
+// builds them in parts.
 #include <boltzmann/neighbours/neighbourhood.hpp>
 #include <boltzmann/neighbours/shares_of_space.hpp>
 
@@ -14,7 +14,7 @@
 namespace boltzmann {
 namespace {
 
-/// Of rows that are marked.
+/// Ranges of marked rows.
 std::vector<Stretch> stretches_of(std::vector<char> const& marks) {
   std::vector<Stretch> stretches;
   for (std::size_t begin = 0, end = 0; begin < marks.size(); begin = end) {
@@ -24,7 +24,7 @@ std::vector<Stretch> stretches_of(std::vector<char> const& marks) {
   return stretches;
 }
 
-/// Of stretches, what is not in others; both are ascending.
+/// The parts of `all` that are not in `others`; both are ascending.
 std::vector<Stretch> without(std::vector<Stretch> const& all, std::vector<Stretch> const& others) {
   std::vector<Stretch> rest;
   auto other = others.begin();
@@ -43,8 +43,8 @@ std::vector<Stretch> without(std::vector<Stretch> const& all, std::vector<Stretc
 
 void Neighbourhood::divide(Division* division, int threads) {
   if (division) {
-    said_shares();  // refuses what it can't do before the run begins
-    // That others have to be built is known from the next refresh on, and in states, as on one rank.
+    said_shares();  // throws an error of the environment before the run begins
+    // A necessary build is noticed at the next refresh, and in states, as on one rank.
     bool const fit = std::all_of(copies_.begin(), copies_.end(),
                                  [](auto const& copy) { return copy.owned() == copy.ensemble().size(); });
     bool const old = stale_ || !fit;
@@ -57,7 +57,7 @@ void Neighbourhood::divide(Division* division, int threads) {
     for (auto const& copy : copies_) ensembles.push_back(&copy.ensemble());
     division_->lead(this, std::move(ensembles));
     if (old) return;
-    if (is_part()) {  // and nobody else gives particles away
+    if (is_part()) {  // no other list changes the owners
       changes_ = division_->changes();
       return;
     }
@@ -75,10 +75,10 @@ void Neighbourhood::divide(Division* division, int threads) {
   }
   bool const current = is_current();
   for (auto& copy : copies_) copy.everything();
-  if (current && !stale_) follow(threads);  // what is not this rank's has not been
+  if (current && !stale_) follow(threads);  // rows of other ranks have not been refreshed
 }
 
-/// With lists for those rows that have none, where a run is not divided any more.
+/// Builds the missing lists of rows when a run is no longer divided.
 void Neighbourhood::complete(int threads) {
   if (complete_) return;
   if (is_part()) return become_whole(threads);
@@ -121,15 +121,15 @@ void Neighbourhood::refresh_together(int threads) {
   follow(threads);
 }
 
-/// After lists have changed: those that they read now. This rank's own rows are up to date.
+/// Brings the rows that changed lists read up to date. This rank's own rows are current.
 void Neighbourhood::follow_others() {
   find_needed(1);
   bool const placed = !division_->is_whole() && bring_rows();
   for (auto& copy : copies_) copy.refresh_others(1, !placed);
 }
 
-/// Rows of others come from their owners. True if they are in the sorted copies already, and in the ensembles as they
-/// were: nobody but lists reads them.
+/// Owners send rows to the ranks that read them. True if they went directly to the sorted copies, so that the ensembles
+/// still have old rows: no other code reads them.
 bool Neighbourhood::bring_rows() {
   bool const straight = !also_read_ && !division_->rows_are_read() && division_->leads(this) && !box_->sheared();
   if (!straight) {
@@ -144,26 +144,26 @@ bool Neighbourhood::bring_rows() {
   return true;
 }
 
-/// Where the rows of each rank begin, and one more: each gets as much work, as far as lists before have shown it.
+/// The beginnings of the ranks' rows, and the end: equal work for each, as measured by earlier lists.
 WorkShares::Cuts const& Neighbourhood::cut(std::size_t e) {
   shares_[e].divide(&division_->team());
   return cuts_[e] = shares_[e].balanced(copies_[e].ensemble().size());
 }
 
-/// What is done for particles of others and images that a rank knows, in entries of lists.
+/// The work for ghosts, particles of other ranks and images, in entries of lists.
 std::size_t Neighbourhood::work_around(SortedCopy const& copy, std::size_t own) {
   constexpr std::size_t of_another = 6, of_an_image = 3;
   if (!copy.is_part()) return 0;
   return of_another * (std::max(copy.known(), own) - own) + of_an_image * (copy.total() - copy.owned());
 }
 
-/// The entries of all ranks' lists, and what rows have taken.
+/// The entries of all ranks' lists; records the measured work of rows.
 std::size_t Neighbourhood::take_work(std::size_t entries) {
   if (!division_->leads(this)) return sum(entries);
   std::vector<WorkShares::Work> mine(copies_.size() + 1);
   mine.back()[0] = entries;
   for (std::size_t e = 0; e < copies_.size(); ++e) {
-    if (cuts_[e].empty()) continue;  // nobody asks
+    if (cuts_[e].empty()) continue;  // not used
     std::size_t own = 0;
     for (auto const& [begin, end] : own_[e]) own += end - begin;
     auto const end_of = [own](std::size_t part) {
@@ -199,7 +199,7 @@ std::size_t Neighbourhood::take_work(std::size_t entries) {
                                [](WorkShares::Work const& one) { return std::size_t{one[0]}; });
 }
 
-/// Each rank gets its stretch of rows, or those that other lists have given it.
+/// Assigns each rank its range of rows, or the owners that other lists have set.
 void Neighbourhood::share_out() {
   if (!division_->leads(this)) return take_shares();
   for (std::size_t e = 0; e < copies_.size(); ++e) {
@@ -213,7 +213,7 @@ void Neighbourhood::share_out() {
   take_shares();
 }
 
-/// What is known of others where all rows come to all ranks: whether they have moved, and references of a build in parts.
+/// Gathers further state when all rows are gathered: whether others have moved, and references of a build in parts.
 void Neighbourhood::gather_others() {
   if (lists_.empty()) return;
   others_rest_ = sum(is_current() ? 0 : 1) == 0;
@@ -223,7 +223,7 @@ void Neighbourhood::gather_others() {
   references_known_ = true;
 }
 
-/// Shares are others than before: rows that come to this rank get lists.
+/// Owners have changed: rows that are new to this rank get lists.
 void Neighbourhood::take_over(int threads) {
   auto const before = own_;
   take_shares();
@@ -254,7 +254,7 @@ bool Neighbourhood::is_own(SortedCopy const& copy, std::uint32_t row) const {
   return after != rows.begin() && row < std::prev(after)->end;
 }
 
-/// In divided runs lists say which rows they read, and some near these, while they are found.
+/// In divided runs searches mark the rows that lists read, and some near them.
 void Neighbourhood::begin_marks() {
   marks_.clear();
   for (auto const& copy : copies_)
@@ -269,8 +269,8 @@ char* Neighbourhood::marks(SortedCopy const* source) {
   return marks_[e].data();
 }
 
-/// The rows of each copy, images too, that may be in this rank's lists, where that is known from the time they were found;
-/// else those that are, and the sentinel, by which these are padded.
+/// The rows of each copy, including images, that may be in this rank's lists, if the search has marked them. Otherwise
+/// those that are, and the sentinel, with which lists are padded.
 std::vector<std::vector<char>> Neighbourhood::rows_in_lists(int threads) const {
   std::vector<std::vector<char>> found = marks_;
   for (std::size_t e = 0; e < found.size(); ++e) found[e].resize(copies_[e].total() + 1);
@@ -294,7 +294,7 @@ std::vector<std::vector<char>> Neighbourhood::rows_in_lists(int threads) const {
   return found;
 }
 
-/// Which rows of others this rank reads; their owners hear of it.
+/// Finds the rows of others that this rank reads, and notifies their owners.
 void Neighbourhood::find_needed(int threads) {
   row_of_.resize(copies_.size());
   for (std::size_t e = 0; e < copies_.size(); ++e) {
@@ -325,7 +325,7 @@ void Neighbourhood::find_needed(int threads) {
     auto const last_own = own_[e].end();
     for (std::size_t n = 0, all = copy.known(); n < all;) {
       std::size_t const k = copy.known(n);
-      if (own != last_own && own->begin == k) {  // all of them are known
+      if (own != last_own && own->begin == k) {  // a new range: all of its rows are known
         n += own->end - own->begin;
         ++own;
         continue;

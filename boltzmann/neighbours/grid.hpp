@@ -1,4 +1,4 @@
-// Grid: the geometry of cells in space; which cells are near a block. Plain memory, for kernels too.
+// Grid: the geometry of cells in space, and the cells near a block. Plain memory, for kernels too.
 #pragma once
 
 #include <cstddef>
@@ -6,19 +6,19 @@
 
 namespace boltzmann {
 
-/// How far a block whose neighbours are found together may extend along each axis, in units of the reach.
+/// The largest extent along each axis of a block of targets that share a search, in units of the reach.
 inline constexpr double largest_block[3] = {1.5, 0.6, 0.6};
 
-/// Cells of given edges that fill all of space, folded onto `count` of them along each axis: those a multiple of
-/// `count` apart are one. So there are as many as wanted, however far particles are from each other.
+/// Cells of given edges that fill all of space, folded onto `count` of them along each axis: cells a multiple of
+/// `count` apart are one. So the number of cells is bounded for any extent of the particles.
 struct Grid {
   int dimension = 1;
-  std::int64_t count[3] = {1, 1, 1};  ///< along each axis, the first runs fastest
-  /// Along such an axis cells are visited in the order of their numbers, along others in that of space: where cells are
-  /// folded, or so few that a range may be all of them, it would begin elsewhere for another block.
+  std::int64_t count[3] = {1, 1, 1};  ///< along each axis, the first varies fastest
+  /// Along such an axis cells are visited in the order of their numbers, along others in spatial order. If cells are
+  /// folded, or so few that a range may cover all of them, spatial order would begin elsewhere for another block.
   bool by_number[3] = {false, false, false};
   double edge[3] = {1, 1, 1}, inverse_edge[3] = {1, 1, 1};
-  std::int64_t lowest[3] = {0, 0, 0};  ///< cells of points, along each axis, begin here
+  std::int64_t lowest[3] = {0, 0, 0};  ///< the first cell of points along each axis
   bool is_folded = false;              ///< points in one cell may be far apart
 
   std::size_t cells() const { return static_cast<std::size_t>(count[0] * count[1] * count[2]); }
@@ -28,7 +28,7 @@ struct Grid {
     return static_cast<std::size_t>(cell);
   }
 
-  /// The cell along an axis, not folded; those beyond `most` are one.
+  /// The cell along an axis before folding; cells beyond `most` are merged.
   [[gnu::always_inline]] std::int64_t along(int axis, double x) const {
     double c = x * inverse_edge[axis];
     c = c < -most ? -most : c > most ? most : c;
@@ -36,7 +36,8 @@ struct Grid {
     return truncated - (c < static_cast<double>(truncated) ? 1 : 0);
   }
 
-  /// How many cells points between two coordinates may have along an axis, and whether there are fewer.
+  /// The largest number of cells that points between two coordinates may have along an axis; the other: whether there
+  /// are fewer.
   double cells_of(int axis, double low, double high) const {
     return __builtin_floor((high - low) * inverse_edge[axis]) + 2;
   }
@@ -44,7 +45,7 @@ struct Grid {
     return static_cast<double>(count[axis]) < cells_of(axis, low, high);
   }
 
-  /// The cell onto which one is folded along an axis.
+  /// The cell onto which a cell is folded along an axis.
   [[gnu::always_inline]] std::int64_t folded(int axis, std::int64_t cell) const {
     std::int64_t const n = count[axis];
     if (cell >= 0 && cell < n) return cell;
@@ -52,17 +53,17 @@ struct Grid {
     std::int64_t const rest = cell % n;
     return rest < 0 ? rest + n : rest;
   }
-  /// And, where cells are not folded, the one of points that is folded onto this one.
+  /// The inverse, if cells are not folded: the cell with points.
   std::int64_t unfolded(int axis, std::int64_t cell) const {
     std::int64_t const n = count[axis], turned = (cell - lowest[axis]) % n;
     return lowest[axis] + (turned < 0 ? turned + n : turned);
   }
 
-  /// The runs of cells that near() finds at most.
+  /// The most runs of cells that near() visits.
   static constexpr int most_runs = 128;
 
-  /// Calls visit(first, last) for runs of cells that together hold every point within `reach` of the block from `least`
-  /// to `greatest` (and some further ones), each cell once. Two cells come in the same order for every block.
+  /// Calls visit(first, last) for runs of cells that together contain every point within `reach` of the block from
+  /// `least` to `greatest` (and some further ones), each cell once. Two cells come in the same order for every block.
   template <class Visit>
   [[gnu::always_inline]] void near(double const* least, double const* greatest, double reach, Visit visit) const {
     std::int64_t from[3] = {0, 0, 0}, to[3] = {0, 0, 0};
@@ -77,7 +78,7 @@ struct Grid {
       to[a] = along(a, greatest[a] + wide);
       if (to[a] - from[a] >= count[a]) to[a] = from[a] + count[a] - 1;
     }
-    // Where rounding is wider than the reach (1e14 of it from the origin) everything is near.
+    // If rounding exceeds the reach (at 1e14 reaches from the origin), every cell is near.
     if ((to[1] - from[1] + 1) * (to[2] - from[2] + 1) > most_runs / 2) return visit(std::size_t{0}, cells() - 1);
     std::int64_t const turn2 = first_turn(2, from[2], to[2]), turn1 = first_turn(1, from[1], to[1]);
     for (std::int64_t n2 = from[2]; n2 <= to[2]; ++n2) {
@@ -114,7 +115,7 @@ struct Grid {
  private:
   static constexpr double most = 1e15;
 
-  /// How many of the cells of a range, which begins at `from`, are visited last.
+  /// The number of cells at the start of the range, from `from`, that are visited last.
   [[gnu::always_inline]] std::int64_t first_turn(int axis, std::int64_t from, std::int64_t to) const {
     if (!by_number[axis]) return 0;
     std::int64_t const before = count[axis] - folded(axis, from);
@@ -124,7 +125,8 @@ struct Grid {
                                                     std::int64_t to) {
     return n + turn <= to ? n + turn : n + turn - (to - from + 1);
   }
-  /// How far the block is at least from every point of a cell (all that are folded onto it, if `others` go round).
+  /// A lower bound of the distance between the block and the points of a cell (including all cells that are folded onto
+  /// it, if `others` repeat).
   [[gnu::always_inline]] double distance(int axis, std::int64_t cell, std::int64_t others, double least,
                                          double greatest, double slack) const {
     auto const n = static_cast<double>(cell);

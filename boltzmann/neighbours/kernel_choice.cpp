@@ -1,4 +1,4 @@
-// Which set's kernels search for neighbours.
+// Selects the kernels of the neighbour search by instruction set.
 #include <boltzmann/core/kernel_dispatch.hpp>
 #include <boltzmann/neighbours/neighbour_kernels.hpp>
 

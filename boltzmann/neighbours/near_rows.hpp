@@ -42,7 +42,7 @@ inline double squared(double x) { return x * x; }
 struct Block {
   double least[3] = {}, greatest[3] = {};
 };
-/// The end of a group of consecutive targets whose block is no longer than that.
+/// The end of a group of consecutive targets whose block is at most this long.
 template <int D>
 [[gnu::always_inline]] inline std::size_t end_of_group(NearTask const& task, std::size_t first, std::size_t end,
                                                        double const (&longest)[3], Block& block) {
@@ -64,7 +64,7 @@ template <int D>
   return last;
 }
 
-/// The same block in steps: its lower corner and how far it extends.
+/// The same block in steps: its lower corner and its extent.
 struct BlockInSteps {
   std::int32_t corner[3] = {}, extent[3] = {};
 };
@@ -87,8 +87,8 @@ template <int D>
   return block;
 }
 
-/// Of the candidates k to end_of_range those within the square of a reach of the block: items and positions from its
-/// corner, appended to the `near` that are there. How many there are then.
+/// Appends to `near` the candidates k to end_of_range within the square of a reach of the block: items, and positions
+/// relative to its corner. Returns the new number.
 template <int W, int D>
 [[gnu::always_inline]] inline std::uint32_t gather(Candidates const& among, std::uint32_t k, std::uint32_t end_of_range,
                                                    BlockInSteps const& block, float reach2,
@@ -113,13 +113,14 @@ template <int W, int D>
   return near;
 }
 
-/// Other threads may mark the same rows.
+/// Atomic, as other threads may mark the same rows.
 inline void mark_rows(std::uint32_t const* items, std::uint32_t count, char* marks) {
 #pragma GCC unroll 8
   for (std::uint32_t n = 0; n < count; ++n) __atomic_store_n(marks + row_of_item(items[n]), char{1}, __ATOMIC_RELAXED);
 }
 
-/// Appends the outer rings of a target's row to the innermost, and says where the row is and how long to each ring.
+/// Appends the outer rings of a target's row to the innermost ring, and records the start of the row and its length up
+/// to each ring.
 template <int W>
 [[gnu::always_inline]] inline void finish_row(NearRows& out, std::size_t i,
                                               std::uint32_t* const (&ring_end)[list_rings],
@@ -141,9 +142,9 @@ template <int W>
   out.used += (static_cast<std::size_t>(next - row) + list_padding - 1) / list_padding * list_padding;
 }
 
-/// Consecutive targets, which are near each other, share the search: those within reach of the block around them are
-/// copied side by side, in single precision from the block's corner; each target then looks at these. Radii are widened
-/// by what the rounding to steps may be wrong.
+/// Consecutive targets, which are near each other, share the search. Candidates within reach of their block are copied
+/// contiguously, in single precision relative to the block's corner; each target then tests these. Radii are enlarged
+/// by the rounding to steps.
 template <int W, int D>
 [[gnu::flatten]] std::size_t near_rows(NearTask const& task, std::size_t begin, std::size_t end,
                                        NearRows& out) {  // long: one search, whose parts share a dozen numbers
@@ -153,7 +154,7 @@ template <int W, int D>
   float ring2[list_rings];
   for (int r = 0; r < list_rings; ++r)
     ring2[r] = static_cast<float>(squared(task.ring[r] * task.steps_per_length * (1 + 1e-6) + 4));
-  // Known to no one else, so that they stay in registers.
+  // Local copies, which the compiler keeps in registers.
   float* const near_position[3] = {out.near_position[0], out.near_position[1], out.near_position[2]};
   std::uint32_t* const near_item = out.near_item;
   std::uint32_t* shell_item[list_rings];
@@ -207,7 +208,7 @@ template <int W, int D>
   return end;
 }
 
-/// Puts rows of particles where they are nearest to their references.
+/// Moves rows of particles to the periodic image nearest to their references.
 class RowPlacer {
  public:
   using Four = Pack<double, 4>;
@@ -216,7 +217,7 @@ class RowPlacer {
     for (int a = 0; a < 4; ++a) coordinate_.native[a] = a < task.dimension ? -1 : 0, changed_.native[a] = 0;
   }
 
-  /// Row k from a particle's; gives the square of its displacement.
+  /// Places row k from a particle's row; returns the square of its displacement.
   double operator()(double const* from, std::size_t k) {
     constexpr double to_integer =
         6755399441055744.0;  // 3/2 2^52: adding and subtracting it rounds to the nearest integer
@@ -239,7 +240,7 @@ class RowPlacer {
   bool changed() const { return any(changed_); }
 
  private:
-  RefreshTask const task_;  // known to nobody else, so that it stays in registers
+  RefreshTask const task_;  // a local copy, which the compiler keeps in registers
   Four const period_, inverse_;
   Mask<double, 4> coordinate_, changed_;
 };
@@ -271,7 +272,7 @@ template <int W>
 
 template <int W>
 [[gnu::flatten]] void move_images(ImageTask const& task, std::size_t begin, std::size_t end) {
-  // Known to nobody else, so that they stay in registers.
+  // Local copies, which the compiler keeps in registers.
   std::size_t const stride = task.block_stride, mapped = task.mapped_blocks, last = task.last_block;
   std::size_t const first_mapped = task.first_block, end_mapped = mapped < last ? mapped : last;
   std::size_t const first_copied = task.first_block > mapped ? task.first_block : mapped;
@@ -279,7 +280,7 @@ template <int W>
   double* const images = rows + 4 * task.first;
   double const *const sign = task.sign, *const shift = task.shift;
   std::uint32_t const *const source = task.source, *const turns = task.turns;
-  if (last == 1 && mapped == 1) {  // positions alone
+  if (last == 1 && mapped == 1) {  // positions only
     for (std::size_t g = begin; g < end; ++g) {
       std::size_t const map = 4 * static_cast<std::size_t>(turns[g]);
       double const* const from = rows + 4 * static_cast<std::size_t>(source[g]);

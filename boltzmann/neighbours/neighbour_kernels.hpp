@@ -9,7 +9,7 @@ namespace boltzmann {
 template <InstructionSet>
 NeighbourKernels const& neighbour_kernels_of();
 
-/// Those of the set in use.
+/// The kernels of the set in use.
 NeighbourKernels const& neighbour_kernels();
 
 }  // namespace boltzmann

@@ -1,4 +1,4 @@
-// List building: chunks of targets, each with memory of its own, which it keeps from build to build.
+// Builds lists in chunks of targets, each with memory of its own, which is kept from build to build.
 #include <boltzmann/neighbours/neighbour_list.hpp>
 
 #include <boltzmann/core/error.hpp>
@@ -26,7 +26,7 @@ NearTask task_of(SortedCopy const& target, SortedCopy const& source, double cuto
   return task;
 }
 
-/// What a search needs besides the list itself; kept while one thread goes from chunk to chunk.
+/// Scratch memory of a search, kept while one thread processes chunks.
 struct Scratch {
   std::array<std::vector<float>, 3> positions;
   std::array<std::vector<std::uint32_t>, list_rings> items;
@@ -42,7 +42,7 @@ struct Scratch {
   }
 };
 
-/// Runs the kernel over [begin, end), making room in `index` as it is wanted.
+/// Runs the kernel over [begin, end), growing `index` as needed.
 void find(NearKernel kernel, NearTask const& task, std::size_t begin, std::size_t end, NearRows& out,
           std::vector<std::uint32_t>& index, Scratch& scratch) {
   for (;;) {
@@ -51,7 +51,7 @@ void find(NearKernel kernel, NearTask const& task, std::size_t begin, std::size_
     begin = kernel(task, begin, end, out);
     if (begin == end) return;
     if (out.used + out.wanted > index.size()) {
-      // For the rest as for those that have been found, what is wanted for the last of them, and no more.
+      // Extrapolates from the rows found so far, or exactly what the last row needs.
       std::size_t const found = begin - out.first, rest = end - begin;
       std::size_t const more = found > 0 ? out.used * rest / found + out.used / 32 : 0;
       index.reserve(out.used + more + out.wanted);
@@ -154,7 +154,7 @@ void NeighbourList::rebuild(SortedCopy const& target, SortedCopy const& source, 
   }
 }
 
-/// Takes what the filter does not let through out of a row; what follows moves up, in its order.
+/// Removes the entries that the filter rejects from a row; later entries move up in their order.
 void NeighbourList::sift(SortedCopy const& target, SortedCopy const& source, std::size_t i) {
   std::uint32_t const particle = target.order()[i];
   std::uint32_t const* const first = filter_.index.data() + filter_.start[particle];

@@ -1,4 +1,4 @@
-// Neighbour lists: for each particle, all that are near, in a fixed order.
+// Neighbour lists: for each particle all near particles, in a fixed order.
 #pragma once
 
 #include <boltzmann/neighbours/sorted_copy.hpp>
@@ -13,8 +13,8 @@
 
 namespace boltzmann {
 
-/// Pairs within one ensemble by particle numbers: those that a list leaves out, or the only ones that it has. Their
-/// images are meant, too.
+/// Pairs within one ensemble by particle numbers: those that a list excludes, or the only ones that it has. Applies to
+/// their images, too.
 struct PairFilter {
   bool only = false;
   std::vector<std::size_t> start;    ///< of each particle's partners in `index`
@@ -22,39 +22,39 @@ struct PairFilter {
   friend bool operator==(PairFilter const&, PairFilter const&) = default;
 };
 
-/// The full list: for every owned row of a target sorted copy the rows of a source sorted copy, owned and ghosts, that
-/// were within cutoff + skin of it, by the references of both; not itself. An entry is item_of_row() of a source row. A
-/// row begins with those within cutoff + skin / 4, then come rings to cutoff + 2 skin / 4, ... (ascending; `list_rings`
-/// in all): while nothing has moved further than half a ring's share of the skin, what lies behind that ring can't be
-/// within the cut-off, and isn't read. Rows are padded with the source's sentinel.
+/// A full list: for every owned row of a target sorted copy the rows of a source sorted copy, owned and ghosts, that
+/// were within cutoff + skin of it, by the references of both, except itself. An entry is item_of_row() of a source
+/// row. A row begins with those within cutoff + skin / 4, followed by rings to cutoff + 2 skin / 4, ... (ascending;
+/// `list_rings` in all). While nothing has moved further than half a ring's part of the skin, entries beyond that ring
+/// can't be within the cut-off, and are not read. Rows are padded with the source's sentinel.
 class NeighbourList {
  public:
-  /// Of a list whose target and source are one ensemble, from the next build on.
+  /// For a list whose target and source are one ensemble; applies from the next build on.
   void filter(PairFilter filter) { filter_ = std::move(filter); }
   PairFilter const& filter() const { return filter_; }
-  /// Finds everybody's neighbours.
+  /// Finds the neighbours of all targets.
   void build(SortedCopy const& target, SortedCopy const& source, double cutoff, double skin, int threads) {
     build(target, source, cutoff, skin, {{0, target.owned()}}, threads);
   }
-  /// Finds the neighbours of these target rows, which are owned; the others' lists are empty. `marks`, if asked for: 1
-  /// for each row of the source that is in a list, and for some that are near.
+  /// Finds the neighbours of these target rows, which are owned; the other lists are empty. `marks`, if not null, is
+  /// set to 1 for each row of the source that is in a list, and for some near them.
   void build(SortedCopy const& target, SortedCopy const& source, double cutoff, double skin,
              std::vector<Stretch> const& rows, int threads, char* marks = nullptr);
-  /// And those of others, for references as they were then or have been changed since.
+  /// Builds the lists of further rows, for the references of the last build with later moves.
   void build_more(SortedCopy const& target, SortedCopy const& source, std::vector<Stretch> const& rows, int threads,
                   char* marks = nullptr);
-  /// Finds those of the given target rows anew, after references have been changed (SortedCopy::move).
+  /// Rebuilds the lists of the given target rows, after references have changed (SortedCopy::move).
   void rebuild(SortedCopy const& target, SortedCopy const& source, std::span<std::uint32_t const> rows,
                char* marks = nullptr);
 
   std::size_t size() const { return row_.size(); }
-  /// Where each row starts.
+  /// The start of each row.
   std::uint32_t const* const* rows() const { return row_.data(); }
-  /// Of each row, how many entries there are up to a ring (0 to list_rings - 1).
+  /// For each row the number of entries up to a ring (0 to list_rings - 1).
   std::uint32_t const* lengths(int ring) const { return length_.data() + static_cast<std::size_t>(ring) * size(); }
   /// The rows of the last rebuild().
   std::span<std::uint32_t const> rebuilt() const { return rebuilt_; }
-  /// Entries of all rows that were built, padding included.
+  /// Entries of all built rows, including padding.
   std::size_t entries() const { return entries_; }
   std::size_t bytes() const;
 
@@ -68,14 +68,14 @@ class NeighbourList {
   std::size_t entries_ = 0;
   std::vector<std::uint32_t*> row_;
   std::vector<std::uint32_t> length_, rebuilt_;
-  std::vector<Stretch> found_;                      // rows whose lists are not empty
-  std::vector<std::vector<std::uint32_t>> chunks_;  // their size is room, not content
+  std::vector<Stretch> found_;                      // rows whose lists are built
+  std::vector<std::vector<std::uint32_t>> chunks_;  // their size is capacity, not content
   std::deque<std::vector<std::vector<std::uint32_t>>> more_;
   std::deque<std::vector<std::uint32_t>> replaced_;  // rows that have outgrown their place
 };
 
-/// Bytes that a pair scheme with a cut-off holds for a particle whose row has so many, periodic images apart: the
-/// mirrored row, its reference and place in the cells, and the start of its list. Every entry of a list takes 4 more.
+/// Memory of a pair scheme with a cut-off per particle with rows of this size, without periodic images: the row of the
+/// copy, its reference and cell, and the start of its list. Every entry of a list needs 4 more bytes.
 constexpr std::size_t bytes_with_lists(std::size_t row_bytes) {
   constexpr std::size_t reference = 4 * sizeof(double) + 4 * sizeof(std::int32_t);
   constexpr std::size_t cells = (3 + 4) * sizeof(std::uint32_t);  // position, item, row, order, about one cell

@@ -1,4 +1,4 @@
-// When lists hold, how far they are read, and what is found anew when they don't.
+// Decides whether lists are valid, how far they are read, and what is rebuilt otherwise.
 #include <boltzmann/core/threads.hpp>
 #include <boltzmann/neighbours/neighbourhood.hpp>
 
@@ -13,13 +13,13 @@ namespace boltzmann {
 namespace {
 
 constexpr double skin_of_cutoff = 0.12;
-// Where fewer particles are within reach than these in 1D, 2D and 3D (within 1.8 mean distances), builds cost more than
-// longer lists: the skin is as long as that takes, up to this share of the cut-off.
+// If fewer particles than these are within reach in 1D, 2D and 3D (1.8 mean distances), builds cost more than longer
+// lists. Then the skin is chosen to reach this number, up to this fraction of the cut-off.
 constexpr double neighbours_in_reach[] = {3.6, 10, 24};
 constexpr double longest_skin_of_cutoff = 0.75;
-// Around particles that have moved further than all others neighbours are found anew, as long as that takes no more
-// than these shares of finding everybody's: at any time, so that lists are read less far, and when the lists would not
-// hold.
+// Lists around particles that have moved further than all others are rebuilt alone, while that costs at most these
+// fractions of a full build. The smaller one applies at any time, to read lists less far; the larger one if lists would
+// become invalid.
 constexpr double share_of_few = 0.005, share_of_some = 0.25;
 constexpr std::size_t max_moved = 256;
 
@@ -104,7 +104,7 @@ double Neighbourhood::longest_cutoff() const {
 double Neighbourhood::rows_around_one() const {
   std::size_t targets = 0;
   for (auto const& list : lists_) targets += list.list.size();
-  // The neighbours at the old place and at the new one, and what it costs to know who they are.
+  // The neighbours at the old and at the new place, and the cost of finding them.
   return 2.0 * static_cast<double>(entries_) / static_cast<double>(targets + 1) + 20;
 }
 
@@ -120,7 +120,8 @@ void Neighbourhood::build(int threads) {
   if (!skin_) choose_skin(threads);
 }
 
-/// For the density around the particles, which these first lists show. It stays, whatever the density becomes.
+/// Chooses it for the density around the particles, as the first lists show it. The skin is kept, even if the density
+/// changes.
 void Neighbourhood::choose_skin(int threads) {
   double const reach = longest_cutoff() + skin();
   std::size_t neighbours = 0;
@@ -162,7 +163,7 @@ void Neighbourhood::find_neighbours(int threads) {
 
 void Neighbourhood::move(std::vector<Moved> const& moved) {
   std::vector<std::vector<std::uint32_t>> affected(lists_.size());
-  // Whose lists name a moved particle, or ought to: those near its reference, before and after.
+  // Rows whose lists name a moved particle, or should: those near its reference, before and after.
   auto const look_around = [&] {
     for (std::size_t n = 0; n < lists_.size(); ++n)
       for (auto const& [copy, rows] : moved)
@@ -194,7 +195,7 @@ double Neighbourhood::largest_displacement2() const {
   return largest2;
 }
 
-/// Gives those that are further than sqrt(square) from their references new ones, if they are no more than `most`.
+/// Gives new references to rows that are further than sqrt(square) from theirs, if there are at most `most`.
 bool Neighbourhood::move_beyond(double square, std::size_t most) {
   std::vector<Moved> moved;
   std::size_t count = 0;
@@ -212,8 +213,8 @@ bool Neighbourhood::move_beyond(double square, std::size_t most) {
   return true;
 }
 
-/// Chooses how far lists are read, for the displacements of now; finds neighbours anew around a few particles that are
-/// ahead of all others (a knock-on atom). False if the lists don't hold any more.
+/// Chooses how far lists are read, for the current displacements. Rebuilds lists around a few particles that are ahead
+/// of all others (a knock-on atom). False if the lists are no longer valid.
 bool Neighbourhood::lists_hold(double largest2) {
   double all = 0;
   std::size_t moved_before = 0;
@@ -221,14 +222,14 @@ bool Neighbourhood::lists_hold(double largest2) {
     all += static_cast<double>(copy.owned());
     moved_before += copy.moved().size();
   }
-  // Everybody pays for particles that have moved: some, until a build is cheaper.
+  // Every target tests the moved particles: allow some, until a full build is cheaper.
   bool const may_move = moved_before < max_moved && found_again_ < all;
   auto const affordable = [&](double share) {
     return may_move ? std::min(static_cast<std::size_t>(share * all / rows_around_one()), max_moved - moved_before) : 0;
   };
   std::size_t const few = affordable(share_of_few);
   for (int ring = 0; ring < list_rings; ++ring) {
-    // A pair that is not in this part of the lists has come no closer than the cut-off if neither moved further.
+    // A pair beyond this ring is further apart than the cut-off if neither particle has moved further.
     double const allowed = 0.5 * skin() * (ring + 1) / list_rings;
     if (largest2 <= allowed * allowed || (few > 0 && move_beyond(allowed * allowed, few))) {
       ring_ = ring;
@@ -241,7 +242,7 @@ bool Neighbourhood::lists_hold(double largest2) {
   return some > few && move_beyond(soon * soon, some);
 }
 
-/// Whether what this rank advances is where it was at the last refresh.
+/// True if the particles of this rank have not moved since the last refresh.
 bool Neighbourhood::is_current() const {
   return std::all_of(copies_.begin(), copies_.end(), [](auto const& copy) { return copy.is_current(); });
 }
@@ -263,13 +264,13 @@ void Neighbourhood::refresh_alone(int threads) {
   follow(threads);
 }
 
-/// Nothing is known of ensembles with other numbers of particles, and of images beyond other walls.
+/// Lists are invalid if the number of particles, or the set of walls, has changed.
 void Neighbourhood::find_resized() {
   for (auto& copy : copies_)
     if (!copy.built_for_these()) stale_ = true;
 }
 
-/// `others`: rows that others advance come from the ensembles here, too.
+/// `others`: rows of other ranks are copied from the ensembles here, too.
 bool Neighbourhood::follow(int threads, bool others) {
   bool changed = false;
   for (auto& copy : copies_)
@@ -277,9 +278,9 @@ bool Neighbourhood::follow(int threads, bool others) {
   return changed;
 }
 
-// Whether lists are stale, whether how far they are read was decided for the positions of now, how far, rows found
-// anew, the skin if it is chosen; then of each sorted copy the edges of the box, the slide of a sheared one, and the
-// references at its build, and the particles that were moved since: number and reference of each.
+// Contents: whether lists are stale, whether the ring was chosen for the current positions, the ring, the number of
+// rebuilt rows, and the skin if it was chosen. For each sorted copy: the edges of the box, the slide of a sheared one,
+// the references at its build, and for each particle that was moved since its number and reference.
 std::vector<double> Neighbourhood::state() const {
   bool stale = stale_;  // numbers of particles may have changed since
   for (auto const& copy : copies_) stale = stale || copy.owned() != copy.ensemble().size();

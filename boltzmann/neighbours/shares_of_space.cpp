@@ -13,8 +13,8 @@
 namespace boltzmann {
 namespace {
 
-/// Gives lines, one after the other, to ranks [first, first + count), as much work for each as whole lines allow: each
-/// goes to the rank in whose part of all work its middle is.
+/// Assigns lines in order to ranks [first, first + count), with equal work as far as whole lines allow. A line belongs
+/// to the rank in whose part of all work its middle is.
 template <class Lines, class Give>
 void share_lines(Lines const& lines, std::vector<std::int64_t> const& work, int first, int count, Give const& give) {
   double all = 0, before = 0;
@@ -47,7 +47,7 @@ int layers_for(PlaneOfLines const& plane, double reach, int ranks, double worth)
   if (said == SharesOfSpace::columns) return static_cast<int>(std::sqrt(ranks));
   double const width = static_cast<double>(plane.count[0]) * plane.edge[0],
                height = static_cast<double>(plane.count[1]) * plane.edge[1];
-  // What a rank knows: its own part of the plane, and what is around it.
+  // The area that a rank has: its own part of the plane, and the ghosts around it.
   auto const known = [&](int layers) {
     double const columns = static_cast<double>(ranks) / layers;
     return std::min(width / columns + 2 * reach, width) * std::min(height / layers + 2 * reach, height);
@@ -61,7 +61,7 @@ int layers_for(PlaneOfLines const& plane, double reach, int ranks, double worth)
 std::vector<std::uint16_t> columns_of(PlaneOfLines const& plane, std::vector<std::int64_t> const (&order)[2],
                                       std::vector<std::int64_t> const& work, int layers, int ranks) {
   std::vector<std::uint16_t> owner(plane.lines());
-  // Layer by layer lines go to ranks as if there were no columns, so that each layer has the work of all its ranks.
+  // Layers get lines as if there were no columns, so that each layer has the work of all its ranks.
   std::vector<std::size_t> lines;
   for (auto const second : order[1])
     for (auto const first : order[0]) lines.push_back(static_cast<std::size_t>(first + plane.count[0] * second));

@@ -1,4 +1,4 @@
-// How space is shared out among the ranks of a team: in layers, or in columns, which many ranks have less around.
+// The decomposition of space over the ranks of a team: layers, or columns, which need fewer ghosts on many ranks.
 #pragma once
 
 #include <cstddef>
@@ -7,28 +7,27 @@
 
 namespace boltzmann {
 
-/// What is done for a particle besides what each entry of its lists takes, in such entries.
+/// The work per particle besides its list entries, in units of one entry.
 inline constexpr std::int64_t work_of_a_row = 12;
 
-/// Lines of cells side by side, as a plane sees them that they pass through: number `first + count[0] * second`.
+/// Lines of cells side by side, as a plane that they cross perpendicularly: number `first + count[0] * second`.
 struct PlaneOfLines {
   std::int64_t count[2] = {1, 1};
-  double edge[2] = {1, 1};  ///< how far apart lines are
+  double edge[2] = {1, 1};  ///< distance of lines
   std::size_t lines() const { return static_cast<std::size_t>(count[0] * count[1]); }
 };
 
-/// What the environment variable BOLTZMANN_SHARES says, for those who compare: 'layers' or 'columns'; Error if it says
-/// something else.
+/// The environment variable BOLTZMANN_SHARES, for comparisons: 'layers' or 'columns'; Error for any other value.
 enum class SharesOfSpace { chosen, layers, columns };
 SharesOfSpace said_shares();
 
-/// In how many layers along the second axis ranks have least to know of others, if each layer is cut into columns along
-/// the first one and everybody reads what is no further than `reach` from its own; as many layers as ranks where
-/// columns leave more than `worth` of what is known in layers. Or what said_shares() has.
+/// The number of layers along the second axis for which ranks need the fewest ghosts. Each layer is cut into columns
+/// along the first axis, and ranks read what is within `reach` of their own part. Returns as many layers as ranks if
+/// columns leave more than `worth` of the ghosts of layers. said_shares() overrides the choice.
 int layers_for(PlaneOfLines const& plane, double reach, int ranks, double worth);
 
-/// Who gets each line: so many layers, each in columns, with as much work for each rank as whole lines allow. `order` has
-/// the places along each axis in the order of space, `work` that of each line.
+/// The owner of each line: this number of layers, each in columns, with equal work for each rank as far as whole lines
+/// allow. `order` has the places along each axis in spatial order, `work` the work of each line.
 std::vector<std::uint16_t> columns_of(PlaneOfLines const& plane, std::vector<std::int64_t> const (&order)[2],
                                       std::vector<std::int64_t> const& work, int layers, int ranks);
 

@@ -1,14 +1,15 @@
-// The sorted copy of a sheared box: rows stay near references that flow, whichever way the box has put their particles.
+// The sorted copy of a sheared box: rows stay near references that move with the flow, however the box has wrapped
+// their particles.
 #include <boltzmann/neighbours/sorted_copy.hpp>
 
 #include <cmath>
 
 namespace boltzmann {
 
-/// Of the flow since the build.
+/// The strain of the flow since the build.
 double SortedCopy::strain() const { return (box_->slide() - built_slide_) / box_->length(box_->shear().gradient); }
 
-/// The image of a position that is near to where the flow has carried the reference of row k, and how far from there.
+/// The image of a position that is nearest to the reference of row k as moved by the flow, and its distance from there.
 SortedCopy::Placed SortedCopy::placed(std::size_t k, double const* position) const {
   double const* const reference = references_.data() + 4 * k;
   int const f = box_->shear().flow, g = box_->shear().gradient;
@@ -31,7 +32,7 @@ SortedCopy::Placed SortedCopy::placed(std::size_t k, double const* position) con
   return at;
 }
 
-/// Row k goes there, its velocity with it.
+/// Moves row k there, with the velocity of that image.
 void SortedCopy::place(std::size_t k, Placed const& placed) {
   int const f = box_->shear().flow;
   for (int a = 0; a < box_->dimension(); ++a) rows_[row_block * k + a] = placed.position[a];
@@ -71,7 +72,7 @@ bool SortedCopy::is_current_in_shear() const {
   return true;
 }
 
-/// Into the box, whose images slide by so much.
+/// Wraps a reference into the box at this slide of the images.
 void SortedCopy::wrap_reference(double* reference, double slide) const {
   int const f = box_->shear().flow, g = box_->shear().gradient;
   double const before = reference[g];
@@ -81,7 +82,7 @@ void SortedCopy::wrap_reference(double* reference, double slide) const {
     if (a != g && box_->periodic(a)) reference[a] = box_->wrapped(reference[a], a);
 }
 
-/// Where a particle, which is there now, would have been at the build, had it been carried by the flow alone since.
+/// The position at the build of a particle that is here now, if only the flow had moved it since.
 void SortedCopy::put_back_to_build(double const* position, double* reference) const {
   int const f = box_->shear().flow, g = box_->shear().gradient;
   for (int a = 0; a < box_->dimension(); ++a) reference[a] = position[a];

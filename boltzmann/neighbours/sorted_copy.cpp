@@ -1,4 +1,4 @@
-// Sorting, images, and following the particles between two builds.
+// Sorting, images, and updates between two builds.
 #include <boltzmann/boundaries/far_from_box.hpp>
 #include <boltzmann/neighbours/sorted_copy.hpp>
 
@@ -17,10 +17,11 @@
 namespace boltzmann {
 namespace {
 
-constexpr std::size_t together = 256;                    // rows that share a largest displacement
+constexpr std::size_t together = 256;                    // rows that share one largest displacement
 constexpr std::size_t refresh_grain = 2048;              // a multiple of it
 constexpr std::size_t max_rows = std::size_t{1} << 30U;  // items are 32 bits
-constexpr double max_lengths = 8;                        // of a periodic axis, that images are moved
+constexpr double max_lengths = 8;                        // the most lengths of a periodic axis between an image and its
+                                                         // particle
 constexpr double nowhere = std::numeric_limits<double>::quiet_NaN();
 
 [[noreturn]] void not_finite(AnyEnsemble const& ensemble, std::size_t particle) {
@@ -38,7 +39,7 @@ std::int32_t in_steps(double x, double reach) {
   std::int64_t const below = truncated - (steps < static_cast<double>(truncated) ? 1 : 0);
   return static_cast<std::int32_t>(static_cast<std::uint32_t>(below));
 }
-/// All rows that have been moved, and their images, for the search.
+/// Lists all rows that have been moved, and their images, for the search.
 template <class Images>
 void list_images(std::vector<Images> const& of_rows, double reach, std::array<std::vector<std::int32_t>, 3>& position,
                  std::vector<std::uint32_t>& item) {
@@ -52,7 +53,7 @@ void list_images(std::vector<Images> const& of_rows, double reach, std::array<st
   item.resize(item.size() + candidate_padding, 0);
   for (auto& column : position) column.resize(item.size(), 0);
 }
-/// As far away as can be.
+/// The largest distance modulo 2^32.
 std::int32_t opposite(std::int32_t steps) {
   return static_cast<std::int32_t>(static_cast<std::uint32_t>(steps) + (1U << 31U));
 }
@@ -67,7 +68,7 @@ SortedCopy::SortedCopy(AnyEnsemble const& ensemble, Box const& box, std::size_t 
       components_(row_block * all_blocks()) {
   for (auto const& [name, rule] : {std::pair{"position", ImageRule::position}, {"velocity", ImageRule::velocity}}) {
     Field const* field = ensemble.find_field(name);
-    if (!field || field->components != box.dimension()) continue;  // a class' own, of another meaning
+    if (!field || field->components != box.dimension()) continue;  // a user's class with another meaning
     for (int a = 0; a < field->components; ++a) components_[field->offset + a] = {rule, a, 0};
   }
 }
@@ -170,7 +171,7 @@ std::unique_ptr<double[]> SortedCopy::references_of(std::span<std::uint32_t cons
   return references;
 }
 
-/// Told before anything is made: it would fill all memory.
+/// Checked before allocation: a larger reach would exhaust the memory.
 void SortedCopy::check_reach(double reach, Box::Edges const& edges) const {
   for (int a = 0; a < box_->dimension(); ++a)
     if (box_->boundary(a) == Boundary::mirror && box_->walled(a, Box::End::low) && box_->walled(a, Box::End::high) &&
@@ -213,7 +214,7 @@ void SortedCopy::finish_build(Cells const& sorted, Grid const* grid, int threads
   sort_all(sorted, grid, threads);
   for (auto& column : moved_position_) column.assign(candidate_padding, 0);
   moved_item_.assign(candidate_padding, 0);
-  // Nowhere, as the sentinel will stay, until they are refreshed: whoever asks then hears that all have changed.
+  // NaN, as the sentinel stays, until the next refresh, which then reports a change.
   for (std::size_t b = 0; b < all_blocks(); ++b) {
     std::size_t const from = part_ ? owned() : 0;
     for (std::uint32_t const k : known_) std::fill_n(block(b) + row_block * k, row_block, nowhere);
@@ -241,7 +242,7 @@ void SortedCopy::only(std::vector<Stretch> const& own, std::vector<Stretch> cons
   others_ = others;
   largest2_.assign(pieces_.size(), 0.0);
   images_of_.clear();
-  constexpr std::size_t few = 4;  // that nobody reads cost less than another stretch
+  constexpr std::size_t few = 4;  // refreshing this many unused rows costs less than another range
   for (std::size_t g = 0; g < ghost_source_.size(); ++g) {
     if (!read[owned() + 1 + g]) continue;
     bool const goes_on = !images_of_.empty() && images_of_.back().end + few >= g &&
@@ -259,7 +260,7 @@ void SortedCopy::too_many_rows(double count) const {
 }
 
 double SortedCopy::sorting_reach(double reach, Box::Edges const& edges) const {
-  // Cells that are not all but empty, or their order would be that of distant particles.
+  // Cells should not be mostly empty, or the order of rows would be that of distant particles.
   double const size = static_cast<double>(ensemble_->size() + 1);
   double volume = 1;
   for (int a = 0; a < box_->dimension(); ++a) volume *= edges[3 + a] - edges[a];
@@ -287,9 +288,9 @@ std::uint32_t SortedCopy::code_of(Turns const& turns) const {
                                     max_images_);
 }
 
-/// Images of rows, about the walls as they are now.
+/// Maps of images, for the current walls.
 void SortedCopy::find_image_maps() {
-  // Behind the last number that changes blocks are copied.
+  // Blocks after the last number that changes are copied.
   mapped_blocks_ = 0;
   for (std::size_t n = 0; n < components_.size(); ++n) {
     ImageRule const rule = components_[n].rule;
@@ -312,8 +313,8 @@ void SortedCopy::find_image_maps() {
 
 double SortedCopy::images_moved() const {
   if (box_->sheared()) {
-    // Two references that are within reach of each other, or further away, have come closer by no more than the flow
-    // has shortened a distance that long in the direction in which it shortens most. Each of them has half of that.
+    // Two references at least a reach apart: the flow has shortened a distance of one reach at most by its shortening
+    // along the direction of strongest compression. Each row counts half of that.
     double const half = 0.5 * std::abs(strain());
     return 0.5 * reach_ * (1 + half - std::sqrt(1 + half * half));
   }
@@ -355,7 +356,7 @@ void SortedCopy::add_ghosts(Part const* part, int threads) {  // long: counts an
       }
     return true;
   };
-  // Inside of these edges rows have no images, or none that is asked for.
+  // Rows inside these edges have no images, or none that is needed.
   std::array<double, 3> low, high;
   low.fill(-std::numeric_limits<double>::infinity()), high.fill(std::numeric_limits<double>::infinity());
   for (int a = 0; a < dimension; ++a) {
@@ -367,8 +368,8 @@ void SortedCopy::add_ghosts(Part const* part, int threads) {  // long: counts an
     if (any || is_near_any(a, begin - reach_, begin)) high[a] = end - reach_;
   }
   for_ranges(known(), refresh_grain, threads, [&](std::size_t begin, std::size_t end) {
-    Found& found = parts[begin / refresh_grain];  // of one thread: whole ranges, or all of them in the first
-    // Known to nobody else, so that they stay in registers.
+    Found& found = parts[begin / refresh_grain];  // of one thread: whole ranges, or all in the first
+    // Local copies, which the compiler keeps in registers.
     Images const images = images_;
     double const reach = reach_, *const references = references_.data();
     std::array<double, 3> const least = low, greatest = high;
@@ -391,7 +392,7 @@ void SortedCopy::add_ghosts(Part const* part, int threads) {  // long: counts an
       for (std::size_t a = 0; a < 3; ++a)
         if (!is_inside(a)) range[a] = images.turns_within(static_cast<int>(a), reach, x[a]);
       bool const any_along_first = range[0].first != range[0].last;
-      // Places are told apart along the first axis in 1D alone.
+      // In 1D places differ along the first axis only.
       for (int t2 = range[2].first; t2 <= range[2].last; ++t2)
         for (int t1 = range[1].first; t1 <= range[1].last; ++t1) {
           if (t1 == 0 && t2 == 0 && !any_along_first) continue;
@@ -435,8 +436,8 @@ void SortedCopy::move_ghosts(std::size_t first_block, std::size_t last_block, st
   neighbour_kernels().images(task, begin, end);
 }
 
-/// All rows that are known and their images, in the cells of this grid or of the one that fits. Cells of rows follow
-/// from those which have sorted them, where both have the same edges.
+/// Sorts all rows and their images into the cells of this grid, or of a fitting one. If both grids have the same edges,
+/// the cells of rows follow from the cells by which they were sorted.
 void SortedCopy::sort_all(Cells const& sorted, Grid const* grid, int threads) {
   std::size_t const rows = known(), images = ghost_source_.size(), count = rows + images;
   auto const D = static_cast<std::size_t>(box_->dimension());
@@ -583,8 +584,8 @@ bool SortedCopy::is_current() const {
 double SortedCopy::largest2() const {
   double largest = 0;
   for (double const square : largest2_) largest = std::max(largest, square);
-  // An image moves by twice as much as its wall (by the root of the sum of such squares, if it has several), and one of
-  // a pair is an owned particle.
+  // An image moves twice as far as its wall (the root of the sum of squares for several walls), and one row of a pair
+  // is an owned particle.
   double const moved = images_moved();
   return moved == 0 ? largest : (std::sqrt(largest) + moved) * (std::sqrt(largest) + moved);
 }
@@ -597,7 +598,7 @@ std::optional<std::vector<std::uint32_t>> SortedCopy::beyond(double square, std:
     square = left < 0 ? -1 : left * left;
   }
   auto const may_have = [square](double largest2) { return largest2 > square; };
-  // At least one of each piece.
+  // Each such piece has at least one.
   if (static_cast<std::size_t>(std::ranges::count_if(largest2_, may_have)) > most) return {};
   for (std::size_t b = 0; b < largest2_.size(); ++b) {
     if (!may_have(largest2_[b])) continue;
@@ -639,7 +640,7 @@ void SortedCopy::move(std::span<std::uint32_t const> rows, std::span<double cons
     auto const known = std::find(moved_.begin(), moved_.end(), k);
     auto const m = static_cast<std::size_t>(known - moved_.begin());
     if (known == moved_.end()) {
-      // Out of the cells, with all images.
+      // Removes the row and all its images from the cells.
       images_.each(reference, reach_, [&](Turns const&, auto const& at) {
         std::size_t const cell = cells_.grid().cell_of(at.data());
         for (std::uint32_t s = cells_.start()[cell]; s < cells_.start()[cell + 1]; ++s) {
@@ -662,7 +663,7 @@ void SortedCopy::move(std::span<std::uint32_t const> rows, std::span<double cons
     if (box_->sheared())
       place(k, placed(k, rows_.data() + row_block * k));
     else
-      refresh_row(k);  // whose position where it was before may have been rounded
+      refresh_row(k);  // its position far from the new reference may have been rounded
     images_.each(reference, reach_, [&](Turns const& turns, auto const& at) {
       if (turns == Turns{}) {
         moved_images_[m].push_back({k, at});
@@ -707,7 +708,7 @@ void SortedCopy::owned_near(double const* x, double reach, std::vector<std::uint
     for (std::size_t s = 0; s + candidate_padding < moved_item_.size(); ++s) take(moved_position_, s, moved_item_[s]);
   };
   if (!part_) return look(x);
-  // Of a part images are not everywhere: rows near those of x, for those of rows near x.
+  // A part does not have all images: searches rows near those of x, instead of images near x.
   images_.each(x, reach, [&](Turns const&, auto const& at) { look(at.data()); });
 }
 

@@ -1,5 +1,5 @@
-// SortedCopy: a scheme's own copy of an ensemble, sorted in space, with the images (ghosts) of periodic axes and of
-// walls behind the owned particles.
+// SortedCopy: a scheme's own copy of an ensemble, sorted in space. The images (ghosts) of periodic axes and of walls
+// follow the owned particles.
 #pragma once
 
 #include <boltzmann/boundaries/images.hpp>
@@ -19,7 +19,7 @@
 
 namespace boltzmann {
 
-/// Allocates at 64 bytes, so that rows never straddle a cache line more than they must.
+/// Allocates at 64 bytes, so that rows straddle as few cache lines as possible.
 template <class T>
 struct AlignedAllocator {
   using value_type = T;
@@ -33,34 +33,34 @@ struct AlignedAllocator {
 template <class T>
 using AlignedVector = std::vector<T, AlignedAllocator<T>>;
 
-/// Rows [0, owned) are the ensemble's particles in spatial order; row `owned` is a sentinel at no position (NaN):
-/// whatever is compared with its distance is false; rows (owned, total] are the images within reach of the box: along
-/// periodic axes those moved by whole lengths, beyond walls of mirror axes those reflected (of every particle near
-/// enough, so that it sees its own image, too), and in corners their compositions. Every particle has a reference, its
-/// position when the sorted copy was built or when it was moved (move()); neighbours are found by references. Those of
-/// images are images about the walls as they stood at the build; what walls have moved since counts as displacement of
-/// everybody. In a sheared box everything flows with the images: displacements are relative to the flow that has sheared
-/// the references since the build, and what the shear itself brings together counts as displacement of everybody.
+/// Rows [0, owned) are the ensemble's particles in spatial order. Row `owned` is a sentinel row at NaN, so that every
+/// distance test fails. Rows (owned, total] are the images within reach of the box: along periodic axes shifted by
+/// whole lengths, beyond walls of mirror axes reflected, and in corners their compositions. A particle near a wall has
+/// its own image as a neighbour, too.
+/// Every particle has a reference, its position when the sorted copy was built or when it was moved (move()).
+/// Neighbours are found by references. References of images use the walls at the build; the motion of walls since then
+/// counts as displacement of all rows. In a sheared box the references move with the flow and displacements are
+/// relative to it. The approach of pairs by the shear itself counts as displacement of all rows.
 class SortedCopy {
  public:
-  /// Behind the blocks of the ensemble's rows stand `extra_blocks` more, which a scheme fills (block()).
+  /// The blocks of the ensemble's rows are followed by `extra_blocks` more, which a scheme fills (block()).
   SortedCopy(AnyEnsemble const& ensemble, Box const& box, std::size_t extra_blocks = 0);
 
-  /// The rules for images beyond walls, one for each number of a row, extra blocks included: 4 (blocks() + extra).
-  /// Until then the ensemble's fields "position" and "velocity" are what they say, and all else is the same. Error if
-  /// their number is another, or an axis is not one of the box's.
+  /// Sets the rules for images beyond walls, one for each number of a row, including extra blocks: 4 (blocks() +
+  /// extra). By default the fields "position" and "velocity" have the rules of these names, and all others are
+  /// unchanged. Error if the number of rules differs, or an axis is not one of the box's.
   void components(std::vector<ImageComponent> components);
 
-  /// Takes the positions of now as references, sorts by them, and finds the images of every particle within `reach` of
+  /// Uses the current positions as references, sorts by them, and finds the images of every particle within `reach` of
   /// the box. PhysicsFailure if a position is not finite. Error if the reach is longer than an axis between two walls,
   /// or than 8 lengths of a periodic one.
   void build(double reach, int threads = 1);
   /// The same from given references (dimension() numbers a particle, in the ensemble's order, inside periodic axes).
   void build(double reach, std::span<double const> references, int threads = 1);
-  /// And with walls where they stood at an earlier build (built_edges()), and a sheared box's slide (built_slide()).
+  /// The same with the walls of an earlier build (built_edges()), and its slide of a sheared box (built_slide()).
   void build(double reach, std::span<double const> references, Box::Edges const& edges, double slide, int threads = 1);
 
-  /// Places that are told apart along two of the axes; what is within a distance of one of them is near.
+  /// A set of places along two axes; positions within a distance of one of them are near.
   struct NearPlaces {
     struct Place {
       double low[2], high[2];
@@ -72,7 +72,7 @@ class SortedCopy {
     void add(auto const& first, auto const& second) {
       places.push_back({{first.low, second.low}, {first.high, second.high}});
     }
-    /// Whether a position is near, by its coordinates along these axes.
+    /// True if a position is near, by its coordinates along these axes.
     bool contains(double first, double second) const {
       for (Place const& place : places) {
         double const a = out_of(first, place.low[0], place.high[0]), b = out_of(second, place.low[1], place.high[1]);
@@ -84,77 +84,75 @@ class SortedCopy {
    private:
     static double out_of(double x, double low, double high) { return std::max(std::max(0.0, low - x), x - high); }
   };
-  /// What one rank of a team sees of a build that is all ranks' together.
+  /// The data of one rank for a build by all ranks together.
   struct Part {
-    std::vector<std::uint32_t> particles;  ///< that it knows
-    std::unique_ptr<double[]> references;  ///< of these, dimension() numbers each
-    std::vector<std::uint32_t> rows;       ///< that they have, ascending
+    std::vector<std::uint32_t> particles;  ///< on this rank
+    std::unique_ptr<double[]> references;  ///< of these particles, dimension() numbers each
+    std::vector<std::uint32_t> rows;       ///< of these particles, ascending
     Cells sorted;                          ///< rows[n] is that of particles[sorted.items()[n]]
     Grid grid;                             ///< for the references of all rows, images included
-    /// Where those are found whose neighbours are sought here. There are no images elsewhere.
+    /// The region of the targets of this rank. Images elsewhere are not made.
     NearPlaces near;
   };
-  /// The build of which this is a part: rows are sorted among themselves as all are, the others stay unknown, and there
-  /// are images of those that are known alone.
+  /// Builds a part: rows are in the global order; rows of particles that are not here stay empty. Only images of
+  /// particles that are here are made.
   void build_part(double reach, Part part, int threads);
-  /// Whether only a part is known. If so, everything() is not to be followed.
+  /// True if only a part of the rows is here. Then everything() must not be called.
   bool is_part() const { return part_; }
-  /// Whether a row is known, and this particle's.
+  /// True if this row is here, and belongs to this particle.
   bool knows(std::uint32_t k, std::uint32_t particle) const;
-  /// A particle becomes known, with its reference; its row here, which is the one that it has among all rows if no other
-  /// known one is taken for it.
+  /// Adds a ghost particle with its reference. Returns its row: its row in the global order, unless another particle
+  /// here has it.
   std::uint32_t learn(std::uint32_t row_of_all, std::uint32_t particle, double const* reference);
-  /// A row as the ensemble has it now.
+  /// Copies a row from the ensemble.
   void refresh_row(std::uint32_t k);
-  /// Of a part: how far the place where a known row would get a new reference is from where it was at the build: on the
-  /// other side of the box, if it has left over a periodic end.
+  /// In a part: the distance between the new reference that a row would get and its position at the build; on the other
+  /// side of the box, if it has left through a periodic end.
   double left_build_by(std::uint32_t k) const;
-  /// References at the build for all particles, in the ensemble's order; where only a part is known, those of others
+  /// References at the build for all particles, in the ensemble's order. In a part the references of other particles
   /// are to be written here.
   std::vector<double>& references_by_number() { return built_by_number_; }
-  /// What build() refuses, and the positions of now as references, dimension() numbers for each of these particles.
-  /// PhysicsFailure if one is not finite.
+  /// Makes the checks of build(), and returns the current positions of these particles as references, dimension()
+  /// numbers each. PhysicsFailure if one is not finite.
   void check_reach(double reach, Box::Edges const& edges) const;
   std::unique_ptr<double[]> references_of(std::span<std::uint32_t const> particles) const;
-  /// The reach for which cells are made that sort rows.
+  /// The reach that determines the cells by which rows are sorted.
   double sorting_reach(double reach, Box::Edges const& edges) const;
-  /// The rows that are known, ascending: known(n), n < known().
+  /// The rows that are here, ascending: known(n), n < known().
   std::size_t known() const { return part_ ? known_.size() : owned(); }
   std::uint32_t known(std::size_t n) const { return part_ ? known_[n] : static_cast<std::uint32_t>(n); }
 
-  /// Copies the ensemble's rows of now into the sorted copy's order and moves the images along, those beyond walls as
-  /// the walls are now. Extra blocks stay as they are. True if a position, or a wall's place, has changed since the
-  /// last time. PhysicsFailure if a position is not finite. `others`: also those that others advance (only()).
+  /// Copies the ensemble's current rows into the sorted copy's order and updates the images, those beyond walls for the
+  /// current walls. Extra blocks are kept. True if a position, or a wall, has moved since the last time. PhysicsFailure
+  /// if a position is not finite. `others`: includes rows of other ranks (only()).
   bool refresh(int threads, bool others = true);
-  /// Of that the rows that others advance, if asked for, and the images.
+  /// The part of it for rows of other ranks, if wanted, and for images.
   void refresh_others(int threads, bool others);
-  /// Owned rows as particles have come from elsewhere, `from` one after the other: rows[0], rows[1], ..., of each as
-  /// many blocks as are followed.
+  /// Places received rows, which are contiguous at `from`: rows[0], rows[1], ..., with followed_blocks() blocks each.
   void place(std::span<std::uint32_t const> rows, double const* from);
-  /// From now on refresh() brings up to date these owned rows only, `others` and those images that `read` has (a number
-  /// other than 0 for each of them, at its row), until the next build; largest2(), beyond() and what refresh() returns
-  /// are of `own`. For rows that a rank of a team advances, and those that it reads.
+  /// Restricts refresh() until the next build to these owned rows, to `others`, and to images for which `read` is not 0
+  /// at their row. largest2(), beyond() and the result of refresh() refer to `own`. For rows that a rank of a team
+  /// owns, and those that it reads.
   void only(std::vector<Stretch> const& own, std::vector<Stretch> const& others, std::vector<char> const& read);
-  /// And all of them again.
+  /// Ends the restriction.
   void everything();
-  /// What is brought up to date: owned rows of which refresh() speaks, others, and images, each `sentinel() + 1` behind
-  /// these numbers.
+  /// The ranges that are refreshed: own rows, others, and images. Image n is row `sentinel() + 1 + n`.
   std::vector<Stretch> const& followed() const { return pieces_; }
   std::vector<Stretch> const& others() const { return others_; }
   std::vector<Stretch> const& images() const { return images_of_; }
-  /// The images of blocks [first_block, last_block) from their owned rows, for walls as they were at the last refresh.
+  /// Updates the images of blocks [first_block, last_block) from their owned rows, for walls at the last refresh.
   void refresh_images(std::size_t first_block, std::size_t last_block, int threads);
   /// True if the ensemble's positions, and the walls' places, are still those of the last refresh.
   bool is_current() const;
-  /// Square of the largest displacement from a reference at the last refresh, what walls have moved since the build
-  /// included: no pair has come closer by more than twice its root.
+  /// Square of the largest displacement from a reference at the last refresh, including the motion of walls since the
+  /// build: no pair has approached by more than twice its root.
   double largest2() const;
   /// The owned rows that were further (in this sense) than sqrt(square) from their references at the last refresh, if
-  /// they are no more than `most`.
+  /// there are at most `most`.
   std::optional<std::vector<std::uint32_t>> beyond(double square, std::size_t most) const;
 
-  /// Gives owned rows new references: where they are now, or (the second form, rows of 3 numbers) given positions.
-  /// They leave the sorted order's cells, and are asked by everyone who looks for neighbours (so let them be few).
+  /// Gives owned rows new references: their current positions, or (second form, rows of 3 numbers) given positions.
+  /// They leave the cells of the sorted order, and every search tests them, so there should be few.
   void move(std::span<std::uint32_t const> rows);
   void move(std::span<std::uint32_t const> rows, std::span<double const> references);
   /// The rows that have been moved since the build, in the order of their first move.
@@ -162,73 +160,74 @@ class SortedCopy {
   /// Adds to `rows` the owned rows whose references, or images of them, are within `reach` of x.
   void owned_near(double const* x, double reach, std::vector<std::uint32_t>& rows) const;
 
-  /// Whether of images, and of rows that come from elsewhere, only the first block is brought up to date, in which
-  /// positions are: until the first who asks for more.
+  /// If set, only the first block of images and of received rows is refreshed, which has the positions. The first user
+  /// of other fields resets it.
   void positions_alone(bool yes) { positions_alone_ = yes; }
-  /// How many blocks are.
+  /// The number of refreshed blocks.
   std::size_t followed_blocks() const { return positions_alone_ ? 1 : blocks(); }
 
-  /// Block b (4 doubles) of row k is at rows() + b * block_stride() + 4 k: what no law reads is in no law's way.
+  /// Block b (4 doubles) of row k is at rows() + b * block_stride() + 4 k. Blocks that a law does not read are never
+  /// loaded.
   double const* rows() const { return rows_.data(); }
   std::size_t block_stride() const { return row_block * capacity_; }
   std::size_t blocks() const { return ensemble_->stride() / row_block; }
-  /// Row k of block b, to be written: at block(b) + 4 k. Blocks from blocks() on are the extra ones; they are NaN after
-  /// a build until they are filled (the sentinel's stay so), and stand here until the next build() or move().
+  /// Writable access to block b: row k is at block(b) + 4 k. Blocks from blocks() on are the extra ones. After a build
+  /// they are NaN until they are filled (the sentinel stays NaN); they are kept until the next build() or move().
   double* block(std::size_t b) { return rows_.data() + b * block_stride(); }
   double const* block(std::size_t b) const { return rows_.data() + b * block_stride(); }
   std::size_t extra_blocks() const { return extra_blocks_; }
   std::size_t owned() const { return order_.size(); }
   std::size_t total() const { return order_.size() + ghost_source_.size(); }
   std::size_t sentinel() const { return owned(); }
-  /// The owned row that row k, owned or an image, shows; the sentinel's is none.
+  /// The owned row of row k, which is owned or an image; the sentinel has none.
   std::uint32_t owner(std::size_t k) const {
     return k < owned() ? static_cast<std::uint32_t>(k) : ghost_source_[k - owned() - 1];
   }
-  /// Which particle of the ensemble each owned row is.
+  /// The particle of each owned row.
   std::uint32_t const* order() const { return order_.data(); }
-  /// And which row each particle is, where all are known.
+  /// The row of each particle, if all are here.
   std::vector<std::uint32_t> rows_by_number() const;
   AnyEnsemble const& ensemble() const { return *ensemble_; }
-  /// Memory of all that is here.
+  /// Memory of this object in bytes.
   std::size_t bytes() const;
 
-  /// The references of the owned rows, rows of 4.
+  /// The references of the owned rows, 4 numbers a row.
   double const* references() const { return references_.data(); }
-  /// The same in steps (see steps_of_reach), rows of 4.
+  /// The same in steps (see steps_of_reach), 4 numbers a row.
   std::int32_t const* reference_steps() const { return steps_.data(); }
-  /// The references at the build, in the ensemble's order (dimension() numbers a particle): all that is needed to build
-  /// the same sorted copy again.
+  /// The references at the build, in the ensemble's order (dimension() numbers a particle). They suffice to build the
+  /// same sorted copy again.
   std::vector<double> built_references() const;
-  /// And where the box's edges were.
+  /// The box's edges at the build.
   Box::Edges const& built_edges() const { return built_edges_; }
-  /// Whether there were as many particles at the build, and walls at the same ends.
+  /// True if the build had the same number of particles, and walls at the same ends.
   bool built_for_these() const { return owned() == ensemble_->size() && built_walls_ == box_->walled(); }
   double built_slide() const { return built_slide_; }
   /// The axis of a sheared box's flow; -1: no shear.
   int flow_axis() const { return box_->sheared() ? box_->shear().flow : -1; }
-  /// How much faster along it row k, owned or an image, is than its particle: rows are whole lengths up or down the
-  /// gradient from where the box has put their particles. Only where there is a flow.
+  /// The velocity along the flow of row k, owned or an image, minus that of its particle: rows are shifted by whole
+  /// lengths along the gradient from the wrapped particles. Only for a sheared box.
   double ahead_in_flow(std::size_t k) const;
 
-  /// For the search of neighbours among this sorted copy's rows.
+  /// The task of a search for neighbours among this sorted copy's rows.
   NearTask near_task() const;
 
  private:
-  struct Image {  // of a moved row: itself (turns 0, row = the owned one) or a ghost
+  struct Image {  // of a moved row: itself (turns 0, its own row) or a ghost
     std::uint32_t row;
     std::array<double, 3> position;
   };
 
   struct Placed {  // a particle of a sheared box near the reference of its row
     std::array<double, 3> position{};
-    double ups = 0, moved2 = 0;  // lengths up the gradient from where it was, square of its displacement
+    double ups = 0, moved2 = 0;  // lengths along the gradient from its wrapped position, square of its displacement
   };
 
   [[noreturn]] void too_many_rows(double count) const;
   double reference_of(double x, int axis) const;
   void begin_build(double reach, Box::Edges const& edges, double slide);
   void finish_build(Cells const& sorted, Grid const* grid, int threads);
-  /// The reference of a row, D numbers.
+  /// Sets the reference of a row, D numbers.
   template <int D>
   void take_reference(std::size_t k, double const* reference);
   Cells sort(double reach, std::span<double const> references, int threads);
@@ -263,7 +262,7 @@ class SortedCopy {
   AlignedVector<double> rows_;
   AlignedVector<double> references_;         // of owned rows, 4 a row
   std::vector<std::uint32_t> ghost_source_;  // the owned row that each ghost is an image of
-  std::vector<std::uint32_t> ghost_turns_;   // and its turns, as a code: a row of image_sign_, image_shift_
+  std::vector<std::uint32_t> ghost_turns_;   // its image index as a code: a row of image_sign_, image_shift_
   Images images_;                            // of references, about the edges at the build
   int max_images_ = 0;
   std::size_t extra_blocks_;
@@ -272,11 +271,12 @@ class SortedCopy {
   Box::Edges built_edges_{}, edges_{};      // at the build, at the last refresh
   Box::Walled built_walls_{};
   double built_slide_ = 0, slide_ = 0;            // likewise
-  std::vector<double> ups_;                       // of owned rows in a sheared box: lengths above their particles
-  std::size_t mapped_blocks_ = 0;                 // in which images differ from their particles
+  std::vector<double> ups_;                       // of owned rows in a sheared box: shift along the gradient from their
+                                                  // particles, in lengths
+  std::size_t mapped_blocks_ = 0;                 // blocks in which images differ from their particles
   std::vector<Turns> turns_;                      // of each code
   std::vector<double> image_sign_, image_shift_;  // of rows, for each code
-  std::vector<Stretch> pieces_, others_;          // of rows that are brought up to date
+  std::vector<Stretch> pieces_, others_;          // ranges of owned rows that are refreshed
   std::vector<Stretch> images_of_;                // and of images
   std::vector<double> largest2_;                  // of each piece
 

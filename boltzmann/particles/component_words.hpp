@@ -1,4 +1,4 @@
-// Component words: what the numbers of a field are called.
+// Component words: the names of the numbers of a field.
 #pragma once
 
 #include <string>

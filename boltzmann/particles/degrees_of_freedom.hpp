@@ -1,7 +1,7 @@
 // Degrees of freedom: the one place that counts them. Temperatures, heat baths, barostats, events and profiles use it.
 //
-// Of D for each moving particle with mass and velocity, rigid bonds take their rank (Mobility::taken), and a total
-// momentum that is kept and zero takes one along its axis. Particles at rest have none.
+// Each moving particle with mass and velocity has D. Rigid bonds remove their rank (Mobility::taken). Each axis along
+// which the total momentum is conserved and zero removes one. Particles at rest have none.
 #pragma once
 
 #include <boltzmann/particles/ensemble.hpp>
@@ -14,7 +14,7 @@
 
 namespace boltzmann {
 
-/// Whether the class has a mass and a velocity, so that it carries momentum and heat.
+/// True if the class has a mass and a velocity, so that it carries momentum and heat.
 bool carries_momentum(AnyEnsemble const& ensemble);
 
 /// Some particles of an ensemble, by number.
@@ -23,7 +23,8 @@ struct ChosenParticles {
   std::vector<std::uint32_t> which;
 };
 
-/// The momentum that a system keeps: along which axes its total is no motion of its own, and the mass that shares it.
+/// The conserved momentum of a system: the axes along which the total is not thermal motion, and the mass that shares
+/// it.
 struct KeptMomentum {
   std::array<bool, 3> along{};
   double mass = 0;
@@ -35,13 +36,13 @@ inline double freedom_of(AnyEnsemble const& ensemble, std::size_t i) {
   if (!mobility.moves(i)) return 0;
   return ensemble.dimension() - (mobility.taken.empty() ? 0 : mobility.taken[i]);
 }
-/// Those of all particles of an ensemble that move.
+/// Degrees of freedom of all moving particles of an ensemble.
 double freedom_of(AnyEnsemble const& ensemble);
 double freedom_of(ChosenParticles const& chosen);
 std::size_t number_moving(AnyEnsemble const& ensemble);
 
-/// Degrees of freedom along each of D axes: the part of `freedom` along each, less what particles of this mass have of
-/// the kept momentum (all of it if they are the system).
+/// Degrees of freedom along each of D axes: `freedom` / D, less the part of the conserved momentum that particles of
+/// this mass have (all of it if they are the system).
 std::array<double, 3> freedom_along(double freedom, int dimension, KeptMomentum const& kept = {}, double mass = 0);
 /// Their sum.
 double freedom_left(double freedom, int dimension, KeptMomentum const& kept = {}, double mass = 0);

@@ -1,4 +1,4 @@
-// Rows of a class that is made while the program runs.
+// Rows of a class that is made at run time.
 #include <boltzmann/particles/derived.hpp>
 
 #include <algorithm>
@@ -6,7 +6,7 @@
 namespace boltzmann {
 namespace {
 
-constexpr std::size_t padding = 16;  // as in Ensemble: packs may read past the last particle, and mask what they read
+constexpr std::size_t padding = 16;  // as in Ensemble: packs may read past the last particle, and mask those lanes
 
 std::size_t doubles_of(DerivedClass const& derived, AnyEnsemble const& base) {
   std::size_t doubles = base.doubles();

@@ -1,4 +1,4 @@
-// Shares, and the messages that carry rows between them.
+// Shares of ranks, and the messages that carry rows between them.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/particles/division.hpp>
 
@@ -23,7 +23,7 @@ std::vector<std::vector<std::uint64_t>> all_sizes(Team& team, std::vector<std::u
   return all;
 }
 
-/// The end of what is copied: too little for a call of memcpy.
+/// Copies the remainder, which is too short for a call of memcpy.
 double* copy_few(double const* from, std::size_t count, double* to) {
   for (; count >= 4; count -= 4, from += 4, to += 4) std::memcpy(to, from, 4 * sizeof(double));
   if (count > 0) *to++ = from[0];
@@ -32,7 +32,7 @@ double* copy_few(double const* from, std::size_t count, double* to) {
   return to;
 }
 
-/// The first `count` numbers of the rows of these particles, to `to`; gives their end.
+/// Copies the first `count` numbers of the rows of these particles to `to`; returns their end.
 double* pack(std::vector<std::uint32_t> const& particles, AnyEnsemble const& ensemble, std::size_t count, double* to) {
   constexpr std::size_t ahead = 12;
   std::size_t const size = particles.size(), stride = ensemble.stride();
@@ -98,7 +98,7 @@ void Division::divide(Part& part) {
   }
 }
 
-/// What is kept together gets one owner.
+/// Gives the members of each group (keep_together()) one owner.
 void Division::join(Part& part) const {
   auto const join_from = [&](std::size_t first, std::vector<std::uint32_t> const& with) {
     for (std::size_t i = 0; i < with.size(); ++i) part.owners[first + i] = part.owners[first + with[i]];
@@ -175,7 +175,7 @@ std::vector<Division::Held> Division::held(AnyEnsemble const& ensemble) const {
   return all;
 }
 
-// One message: numbers, as doubles, then what is held of each.
+// One message: particle numbers, as doubles, then the state of each.
 std::vector<std::vector<std::uint32_t>> Division::hand_over(AnyEnsemble const& ensemble,
                                                             std::vector<std::vector<std::uint32_t>> to) {
   auto const all_held = held(ensemble);
@@ -220,7 +220,7 @@ void Division::gathers(void const* whose, std::function<void()> gather) {
   if (gather) gathers_.emplace_back(whose, std::move(gather));
 }
 
-/// Every rank tells which particles it has.
+/// Every rank broadcasts the numbers of its particles.
 void Division::learn_owners(Part& part) {
   if (part.owners_known) return;
   std::vector<Stretch> const& mine = part.share.stretches;
@@ -281,7 +281,7 @@ void Division::begin() {
 }
 
 void Division::end() {
-  if (!goes_on_) return;  // and ensembles may be gone
+  if (!goes_on_) return;  // ensembles may already be destroyed
   for (auto* ensemble : ensembles_) ensemble->share(nullptr);
   goes_on_ = false;
 }
@@ -354,7 +354,7 @@ void RowExchange::plan(Division& division, std::vector<Needed> needed) {
     auto const& owners = division.owners(*needed[e].ensemble);
     for (auto const i : needed[e].numbers) receives_[owners[i]][e].push_back(i);
   }
-  // Who needs something says so to its owner.
+  // Each rank requests the rows that it needs from their owners.
   std::vector<std::uint64_t> sizes;
   for (auto const& from : receives_)
     for (auto const& numbers : from) sizes.push_back(numbers.size());

@@ -1,4 +1,4 @@
-// Division: how the particles of a run are divided over the ranks of a team.
+// Division: the decomposition of a run's particles over the ranks of a team.
 #pragma once
 
 #include <boltzmann/core/exact_sum.hpp>
@@ -17,63 +17,66 @@
 
 namespace boltzmann {
 
-/// Every rank has a row for every particle, row i is particle i everywhere, and all ranks know who owns it. Its owner
-/// advances it; others have what the owner has sent: before influences are calculated the rows that they read
-/// (RowExchange), and before anybody looks all rows (gather()). Nothing that is computed depends on who owns what.
+/// Domain decomposition. Every rank has a row for every particle: row i is particle i everywhere, and all ranks store
+/// the owners. The owner advances a particle; other ranks have copies that the owner has sent. Before influences are
+/// calculated, owners send the rows that others read (RowExchange). Before any observer runs, all rows are gathered
+/// (gather()). No result depends on the owners.
 ///
-/// All calls but the questions are for all ranks.
+/// All calls except queries are for all ranks.
 class Division {
  public:
   using Owners = std::vector<std::uint16_t>;  ///< the rank of each particle
   static constexpr int most_ranks = 65536;
 
   explicit Division(Team& team);
-  /// Ensembles are whole again.
+  /// Ends the decomposition: ensembles are whole again.
   ~Division() { end(); }
   Division(Division const&) = delete;
   Division& operator=(Division const&) = delete;
 
   Team& team() const { return team_; }
-  /// An ensemble takes part, in equal shares by number until others are told. All its rows are known everywhere.
+  /// Adds an ensemble, in equal parts by particle number until owners are set. All its rows must be current on all
+  /// ranks.
   void add(AnyEnsemble& ensemble);
   bool has(AnyEnsemble const& ensemble) const;
   std::vector<AnyEnsemble*> const& ensembles() const { return ensembles_; }
-  /// From now on particles have these owners. All rows are known everywhere.
+  /// Sets the owners of particles. All rows must be current on all ranks.
   void owners(AnyEnsemble const& ensemble, Owners owners);
-  /// Ensembles whose particles have the owners of consecutive particles of `leader`, whatever these become.
+  /// Adds ensembles whose particles have the owners of consecutive particles of `leader`, also after changes.
   void follow(AnyEnsemble& leader, std::vector<AnyEnsemble*> const& followers);
   Owners const& owners(AnyEnsemble const& ensemble) const { return part(ensemble).owners; }
-  /// Particles change hands among a few ranks: from now on this one has those of `own` (ascending), of which it knows all
-  /// that is held of a particle (held()), and `owners` of particles that it reads are written in owners_here(). Who has
-  /// the others it asks when it has to know (make_whole()).
+  /// Transfers particles among a few ranks. From now on this rank owns `own` (ascending), of which it has everything in
+  /// held(). Owners of particles that it reads are to be written to owners_here(). Owners of other particles are
+  /// exchanged when needed (make_whole()).
   void take(AnyEnsemble const& ensemble, std::vector<std::uint32_t> const& own);
   Owners& owners_here(AnyEnsemble const& ensemble) { return parts_[place(ensemble)].owners; }
-  /// What is held of particles: `count` numbers of particle i, at `numbers` + (i - first) * `stride`, where i - `first`
-  /// is less than `size`.
+  /// An array with numbers of particles: `count` numbers of particle i, at `numbers` + (i - first) * `stride`, where i
+  /// - `first` is less than `size`.
   struct Held {
     double* numbers;
     std::size_t stride, count, first, size;
     double* of(std::size_t i) const { return i - first < size ? numbers + (i - first) * stride : nullptr; }
   };
-  /// All that is held of an ensemble's particles, and of the followers' that they stand for, by whoever advances them:
-  /// rows, and what integrators carry.
+  /// All state of an ensemble's particles, and of the followers' particles that belong to them, on their owner: rows,
+  /// and state that integrators carry.
   std::vector<Held> held(AnyEnsemble const& ensemble) const;
-  /// It goes, of particles that this rank has, to[r] to rank r. What comes: the numbers from each rank, and from itself
-  /// those that stay. For all ranks.
+  /// Migrates it: of the particles of this rank, those in to[r] go to rank r. Returns the numbers of the particles that
+  /// come from each rank; for this rank itself those that stay. For all ranks.
   std::vector<std::vector<std::uint32_t>> hand_over(AnyEnsemble const& ensemble,
                                                     std::vector<std::vector<std::uint32_t>> to);
-  /// From now on particle i of an ensemble has the owner that particle with[i] has, whoever it would be otherwise: what
-  /// is advanced as one (rigid molecules) has one owner.
+  /// Always assigns particle i of an ensemble to the owner of particle with[i]: particles that are advanced together
+  /// (rigid molecules) need one owner.
   void keep_together(AnyEnsemble const& ensemble, std::vector<std::uint32_t> const& with);
-  /// How often particles have got other owners.
+  /// The number of times that owners have changed.
   std::uint64_t changes() const { return changes_; }
 
-  /// Of several neighbour lists one says who owns what, until the division ends: the first that asks, or that of the
-  /// points which others follow. It brings the rows of these ensembles to those who read them.
+  /// The first neighbour lists that call lead() decide on the owners until the division ends; if other particles follow
+  /// the owners of points, it is the lists of these points. The leading lists send the rows of these ensembles to the
+  /// ranks that read them.
   void lead(void const* lists, std::vector<AnyEnsemble const*> brought);
   bool leads(void const* lists) const { return leader_ == lists; }
   bool brings(AnyEnsemble const& ensemble) const;
-  /// From here on it is asked too seldom for that.
+  /// From now on these lists are used too rarely to send rows.
   void brings_nothing() { brought_.clear(); }
   /// Rows that are read besides those in lists, until the division ends: rows(add) calls add(ensemble, i) for each.
   using Add = std::function<void(AnyEnsemble const& ensemble, std::uint32_t i)>;
@@ -81,28 +84,29 @@ class Division {
   void add_also_read(Add const& add) const {
     for (auto const& rows : also_read_) rows(add);
   }
-  /// Somebody besides lists reads the ensembles' rows of those that lists name, until the division ends.
+  /// Declares that other code than lists reads the ensembles' rows that lists name, until the division ends.
   void read_rows() { rows_are_read_ = true; }
-  /// Whether anybody but lists reads rows of others.
+  /// True if other code than lists reads rows of other ranks.
   bool rows_are_read() const { return rows_are_read_ || needs_all(); }
-  /// Whether all rows have to be known everywhere where particles get other owners.
+  /// True if all rows have to be current on all ranks when owners change.
   bool needs_all() const { return several_ || keeps_together_ || !also_read_.empty(); }
 
-  /// From here on, where all rows are known everywhere, ensembles know their shares; and none any more, until it begins
-  /// again.
+  /// begin() requires that all rows are current on all ranks. From then on ensembles have shares
+  /// (AnyEnsemble::share()), until end().
   void begin();
   void end();
   bool goes_on() const { return goes_on_; }
 
-  /// What else is held of an ensemble's particles, by integrators inside a step: where, and how many numbers of each.
+  /// Further state of an ensemble's particles, which integrators carry inside a step: arrays, and how many numbers each
+  /// has per particle.
   using Carried = std::vector<std::pair<double*, std::size_t>>;
   void carry(std::function<Carried(AnyEnsemble const&)> carried) { carried_ = std::move(carried); }
-  /// Called where all rows have come to all ranks, by all of them: what else is known of particles comes along.
+  /// Registers a callback for all ranks, called when all rows have been gathered, to gather further state of particles.
   void gathers(void const* whose, std::function<void()> gather);
-  /// Tells divisions apart.
+  /// Identifies this division.
   std::uint64_t id() const { return id_; }
 
-  /// While it lives whoever looks asks for sums alone (Share::sums).
+  /// While it lives, observers use global sums only (Share::sums).
   class Sums {
    public:
     explicit Sums(Division& of) : division_(of) { division_.add_up_by(&division_.team_); }
@@ -115,21 +119,21 @@ class Division {
   };
   bool sums_suffice() const { return sums_suffice_; }
 
-  /// Owners have moved particles: others know old rows.
+  /// Invalidates copies: owners have moved particles, so other ranks have old rows.
   void moved() { whole_ = false; }
-  /// Whether all rows are known everywhere.
+  /// True if all rows are current on all ranks.
   bool is_whole() const { return whole_; }
-  /// All rows of all ensembles come to all ranks, unless they are there.
+  /// Gathers all rows of all ensembles on all ranks, unless they are current.
   void make_whole();
-  /// So do influences and rates.
+  /// Gathers influences and rates.
   void gather_influences();
-  /// So does any array: `count` doubles of each particle, from each `stride` doubles.
+  /// Gathers any array: `count` doubles of each particle, at intervals of `stride` doubles.
   void gather(AnyEnsemble const& ensemble, double* numbers, std::size_t stride, std::size_t count);
-  /// The least of positive numbers over all ranks.
+  /// The minimum of positive numbers over all ranks.
   double least(double mine);
   /// The sum over all ranks.
   std::size_t sum(std::size_t mine);
-  /// They become those of all ranks. What a rank has failed of until then, all throw.
+  /// Replaces sums by those over all ranks. All ranks throw if one has failed before.
   void sum(std::span<ExactSum> mine) { add_up(team_, mine); }
   void sum(ExactSum& mine) { sum({&mine, 1}); }
 
@@ -141,7 +145,7 @@ class Division {
     std::vector<std::size_t> sizes;
     std::vector<AnyEnsemble*> followers;
     bool owners_known = true;         // of all particles
-    std::vector<std::uint32_t> with;  // see keep_together(): no later than the particle; empty: each by itself
+    std::vector<std::uint32_t> with;  // see keep_together(): with[i] <= i; empty: no groups
   };
   std::size_t place(AnyEnsemble const& ensemble) const;
   Part const& part(AnyEnsemble const& ensemble) const { return parts_[place(ensemble)]; }
@@ -155,39 +159,39 @@ class Division {
 
   Team& team_;
   std::vector<AnyEnsemble*> ensembles_;
-  std::deque<Part> parts_;  // whose shares ensembles know
+  std::deque<Part> parts_;  // a deque, as ensembles point to the shares
   bool goes_on_ = false, whole_ = true, sums_suffice_ = false;
   std::function<Carried(AnyEnsemble const&)> carried_;
   std::vector<std::pair<void const*, std::function<void()>>> gathers_;
   std::uint64_t id_, changes_ = 0;
   void const* leader_ = nullptr;
-  AnyEnsemble const* points_ = nullptr;  // that others follow
+  AnyEnsemble const* points_ = nullptr;  // which others follow
   std::vector<AnyEnsemble const*> brought_;
   std::vector<std::function<void(Add const&)>> also_read_;
   bool several_ = false, keeps_together_ = false, rows_are_read_ = false;
   std::vector<std::vector<double>> sent_, received_;  // of each rank
 };
 
-/// Who sends which particles' numbers to whom, again and again: one message between two ranks, whatever ensembles it is
-/// of.
+/// A plan for repeated exchanges of particles' numbers: one message between two ranks, for all ensembles together.
 class RowExchange {
  public:
-  /// What this rank reads of others: for each ensemble numbers that it does not own. For all ranks.
+  /// The rows that this rank reads from others: for each ensemble the numbers of particles that it does not own. For
+  /// all ranks.
   struct Needed {
     AnyEnsemble* ensemble;
     std::vector<std::uint32_t> numbers;
   };
   void plan(Division& division, std::vector<Needed> needed);
 
-  /// Owners send rows, for all ranks, to where they are in the ensembles.
+  /// Owners send rows to the same rows of the ensembles on other ranks. For all ranks.
   void bring_rows(Division& division);
-  /// The same of the first numbers[e] of each row, to take(e, rank, from): from[0] is the first of the first particle of
-  /// received(e, rank).
+  /// The same for the first numbers[e] of each row; calls take(e, rank, from), where from[0] is the first number of the
+  /// first particle of received(e, rank).
   using Take = std::function<void(std::size_t e, std::size_t rank, double const* from)>;
   void bring_rows(Division& division, std::vector<std::size_t> const& numbers, Take const& take);
   std::vector<std::uint32_t> const& received(std::size_t e, std::size_t rank) const { return receives_[rank][e]; }
-  /// The same of any numbers: give(e, i, to) writes `count(e)` doubles of particle i of ensemble e (in the order of the
-  /// plan) for another rank, and take(e, i, from) gets them there.
+  /// The same for any numbers: give(e, i, to) writes `count(e)` doubles of particle i of ensemble e (in the order of
+  /// the plan) on the owner, and take(e, i, from) reads them on the receiving rank.
   template <class Count, class Give, class Take>
   void bring(Division& division, Count const& count, Give const& give, Take const& take) {
     auto const over = [&](Numbers const& numbers, auto* at, auto const& copy) {

@@ -1,11 +1,12 @@
-// Dye: tracers that remember where they were released, so that those of one place make a streakline.
+// Dye: tracers that record where they were released, so that those of one place form a streakline.
 #pragma once
 
 #include <boltzmann/particles/tracer.hpp>
 
 namespace boltzmann {
 
-/// A fluid particle released by a DyeSource. What was there from the start has place and release 0, and is on no line.
+/// A fluid particle released by a DyeSource. Particles from the initial state have place and release 0, and are on no
+/// line.
 template <int D, class Real = double>
 struct Dye : Tracer<D, Real> {
   static constexpr char const* class_name = "Dye";

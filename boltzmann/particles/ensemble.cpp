@@ -1,4 +1,4 @@
-// Field look-up by name, for everything that is told a field as a word.
+// Look-up of fields by name.
 #include <boltzmann/particles/ensemble.hpp>
 
 #include <fmt/format.h>
@@ -33,7 +33,7 @@ void AnyEnsemble::attach(double* data, std::size_t size) {
   data_ = data;
   size_ = size;
   std::size_t const numbers = size * (influence_size_ + rates_ * rate_stride());
-  if (rates_ > 0 && numbers != influence_.size()) influence_.clear();  // whose places depend on the size
+  if (rates_ > 0 && numbers != influence_.size()) influence_.clear();  // its layout depends on the size
   influence_.resize(numbers);
 }
 

@@ -1,4 +1,4 @@
-// Ensembles: the particles of one class, as an array of the user's own struct.
+// Ensembles: the particles of one class, as an array of your own struct.
 #pragma once
 
 #include <boltzmann/core/error.hpp>
@@ -20,23 +20,23 @@
 
 namespace boltzmann {
 
-/// How an ensemble is drawn.
+/// The appearance of an ensemble in drawings.
 struct Appearance {
-  std::string colour;   ///< a name that colour_named() knows; empty: the next of the palette
+  std::string colour;   ///< a name that colour_named() accepts; empty: the next of the palette
   double diameter = 0;  ///< in the simulation's length unit; 0: chosen by the drawing (on a lattice: its spacing)
 };
 
-/// Where a field stands that has a rate of its own: it changes beside what the equations of motion of the class change.
-/// Or one that has none, but is a sum: what laws give to it at each calculation, for rates to use.
+/// A field that has a rate of its own, in addition to the equations of motion of its class. Or, with `sum`, a field
+/// without a rate: laws add to it in each calculation, and rates use it.
 struct DrivenField {
   int offset = 0, components = 1;
-  bool diffuses = false;  ///< it takes a random walk, too
+  bool diffuses = false;  ///< it also takes a random walk
   bool sum = false;       ///< it has no rate
-  double period = 0;      ///< positive: after each step it is taken back to between -period/2 and period/2
+  double period = 0;      ///< positive: after each step it is wrapped to between -period/2 and period/2
 };
 
-/// An ensemble without its class: what schemes, boundaries, files and diagnoses see. Row i is particle i, always:
-/// engines that need another order keep a copy of their own.
+/// An ensemble without its class: the interface for schemes, boundaries, files and diagnoses. Row i is always particle
+/// i: engines that need another order keep a copy of their own.
 class AnyEnsemble {
  public:
   virtual ~AnyEnsemble() = default;
@@ -46,7 +46,7 @@ class AnyEnsemble {
   std::string const& name() const { return name_; }
   std::string const& class_name() const { return class_name_; }
   int dimension() const { return dimension_; }
-  /// The class whose equations of motion it has.
+  /// The class whose equations of motion apply.
   std::type_info const& moves_as() const { return moves_as_; }
   std::size_t size() const { return size_; }
 
@@ -56,8 +56,8 @@ class AnyEnsemble {
   std::size_t stride() const { return stride_; }    ///< doubles from row to row, a multiple of 4
   std::size_t doubles() const { return doubles_; }  ///< doubles of the class in a row (the rest is padding)
 
-  /// What the schemes have summed up for particle i: `influence_size()` doubles (a force for Newton, a velocity for
-  /// Tracer).
+  /// The sum of influences on particle i from all schemes: `influence_size()` doubles (a force for Newton, a velocity
+  /// for Tracer).
   double* influence(std::size_t i) { return influence_.data() + i * influence_size_; }
   double const* influence(std::size_t i) const { return influence_.data() + i * influence_size_; }
   std::size_t influence_size() const { return influence_size_; }
@@ -67,16 +67,16 @@ class AnyEnsemble {
 
   /// The fields that have rates of their own.
   std::vector<DrivenField> const& driven() const { return driven_; }
-  /// Whether a field is a vector: in 1D a vector has one component, too.
+  /// True if a field is a vector: in 1D a vector has one component, too.
   bool is_vector(Field const& field) const;
-  /// The number of a field among them; -1: it has no rate.
+  /// The index of a field among them; -1: it has no rate.
   int number_driven(Field const& field) const;
-  /// What the schemes have summed up for driven field k: its rate, dimension() numbers a particle, of which a scalar has
-  /// the first. Behind the rates of all come the diffusion coefficients of those that diffuse, in the same form.
+  /// The sum of rates of driven field k from all schemes, dimension() numbers a particle; a scalar uses the first. The
+  /// rates are followed by the diffusion coefficients of the fields that diffuse, in the same form.
   double* rate(std::size_t k) { return influence_.data() + (influence_size_ + k * rate_stride()) * size_; }
   double const* rate(std::size_t k) const { return influence_.data() + (influence_size_ + k * rate_stride()) * size_; }
   std::size_t rate_stride() const { return static_cast<std::size_t>(dimension_); }
-  /// Influences and rates of all particles, whatever their meaning.
+  /// Influences and rates of all particles as plain numbers.
   std::span<double> influences() { return {influence_.data(), influence_.size()}; }
   std::span<double const> influences() const { return {influence_.data(), influence_.size()}; }
 
@@ -88,18 +88,18 @@ class AnyEnsemble {
   /// One component of a field for all particles, in order.
   std::vector<double> column(Field const& field, int component = 0) const;
 
-  /// The first particles stay as they are; of new ones every field is zero (and mass one where the class has a mass).
-  /// Influences are zero until they are calculated. Pointers to rows and influences become invalid.
+  /// Keeps the first particles; in new ones every field is zero (mass one if the class has a mass). Influences are zero
+  /// until they are calculated. Pointers to rows and influences become invalid.
   virtual void resize(std::size_t size) = 0;
-  /// Memory of rows and influences.
+  /// Memory of rows and influences in bytes.
   virtual std::size_t bytes() const = 0;
 
-  /// In a run that is divided over ranks (Division): what this one advances. Null: all of it.
+  /// In a run that is divided over ranks (Division): the particles that this rank advances. Null: all.
   Share const* share() const { return share_; }
   void share(Share const* share) { share_ = share; }
 
-  /// For whoever looks at rows or influences without a copy: their memory stays while it is held. A resize takes other
-  /// memory then, and what is held becomes NaN.
+  /// Keeps the memory of rows and influences alive for views without a copy. A resize then allocates new memory, and
+  /// the old memory is filled with NaN.
   virtual std::shared_ptr<void const> hold_rows() const = 0;
   std::shared_ptr<void const> hold_influences() const { return influence_.hold(); }
 
@@ -122,7 +122,7 @@ class AnyEnsemble {
   HeldArray<double> influence_;
   std::vector<Field> fields_;
   std::vector<DrivenField> driven_;
-  std::vector<int> vectors_;  // where fields stand of one component that are vectors
+  std::vector<int> vectors_;  // offsets of fields with one component that are vectors
   std::size_t rates_ = 0;     // arrays of rates and diffusion coefficients
   Share const* share_ = nullptr;
 };
@@ -155,9 +155,9 @@ class Ensemble final : public AnyEnsemble {
 
   Influence const& influence_on(std::size_t i) const { return *reinterpret_cast<Influence const*>(influence(i)); }
 
-  /// One more particle at the end. References, rows and influences become invalid, as by resize().
+  /// Adds one particle at the end. References, rows and influences become invalid, as by resize().
   void add(P const& particle) {
-    P const copy = particle;  // it may be one of ours, which resizing moves
+    P const copy = particle;  // it may be in this ensemble, whose rows resize() moves
     std::size_t const i = size();
     resize(i + 1);
     (*this)[i] = copy;
@@ -167,7 +167,7 @@ class Ensemble final : public AnyEnsemble {
     std::size_t const old = this->size();
     rows_.resize(size + padding);
     std::size_t const first_new = size < old ? size : old;
-    // All bytes, the padding too: rows are compared, hashed and written as they are.
+    // All bytes, including padding: rows are compared, hashed and written as they are.
     std::memset(static_cast<void*>(rows_.data() + first_new), 0, (rows_.size() - first_new) * sizeof(Row<P>));
     if constexpr (requires(P p) { p.mass; })
       for (std::size_t i = first_new; i < rows_.size(); ++i) rows_[i].mass = 1;
@@ -178,7 +178,7 @@ class Ensemble final : public AnyEnsemble {
   std::shared_ptr<void const> hold_rows() const override { return rows_.hold(); }
 
  private:
-  static constexpr std::size_t padding = 16;  // packs may read past the last particle, and mask what they read
+  static constexpr std::size_t padding = 16;  // packs may read past the last particle, and mask those lanes
   HeldArray<Row<P>> rows_;
 };
 

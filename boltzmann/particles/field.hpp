@@ -1,4 +1,5 @@
-// Field descriptors: the one table per particle class that names its fields for files, scenarios, diagnoses and pages.
+// Field descriptors: the one table per particle class that names its fields for files, scenarios, diagnoses and the
+// window.
 #pragma once
 
 #include <boltzmann/core/dimension.hpp>
@@ -13,7 +14,7 @@
 
 namespace boltzmann {
 
-/// One field of a particle class: where it stands in the row and what it means.
+/// One field of a particle class: its position in the row and its meaning.
 struct Field {
   std::string name;     ///< the word in files, scenario keys and diagnoses
   int offset;           ///< position in the row, counted in doubles
@@ -23,7 +24,7 @@ struct Field {
 };
 
 namespace detail {
-/// Of a member that can be a field; 0 for any other.
+/// For a member that can be a field; 0 for any other.
 template <class Member>
 inline constexpr int component_count = 0;
 template <>
@@ -45,7 +46,7 @@ int offset_of(Member Class::*member) {
 }
 
 /// A table that grows down the class hierarchy: each class adds its own fields to those of its parent. A class derives
-/// from one other, so that what stands where in the parent stands there in the child.
+/// from one other, so that the parent's fields have the same offsets in the child.
 struct FieldTable {
   std::vector<Field> fields;
 

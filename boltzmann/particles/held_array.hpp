@@ -1,4 +1,4 @@
-// HeldArray: memory of an ensemble that others may look at without a copy (arrays of numpy).
+// HeldArray: memory of an ensemble that others may view without a copy (arrays of numpy).
 #pragma once
 
 #include <algorithm>
@@ -11,15 +11,15 @@
 
 namespace boltzmann {
 
-/// Like a vector of T, which consists of doubles alone. Whoever calls hold() keeps the memory as long as he likes: a
-/// resize then takes new memory, and what others still hold becomes NaN, never another particle's numbers.
+/// Like a vector of T, which consists only of doubles. The result of hold() keeps the memory alive. A resize then
+/// allocates new memory and fills the old one with NaN, so that a view never shows the numbers of another particle.
 template <class T>
 class HeldArray {
  public:
   static_assert(std::is_trivially_copyable_v<T> && sizeof(T) % sizeof(double) == 0);
 
   HeldArray() = default;
-  HeldArray(HeldArray const&) = delete;  // two would share their memory
+  HeldArray(HeldArray const&) = delete;  // a copy would share the memory
   HeldArray& operator=(HeldArray const&) = delete;
   ~HeldArray() = default;
 

@@ -1,12 +1,13 @@
-// Laplace, Coulomb, Kepler: classical particles whose influence is Green's function of the Laplacian (section 3.5).
+// Laplace, Coulomb, Kepler: classical particles whose influence is the Green's function of the Laplacian (section 3.5).
 #pragma once
 
 #include <boltzmann/particles/newton.hpp>
 
 namespace boltzmann {
 
-/// A particle with a strength: its field obeys div E = C strength. A derived class says what the strength is by
-/// `strength()` and whether equal strengths repel (sign +1) or attract (-1); mesh and multipole schemes need no more.
+/// A particle with a strength: its field obeys div E = C strength. A derived class defines the strength by
+/// `strength()`, and whether equal strengths repel (sign +1) or attract (-1). Mesh and multipole schemes use nothing
+/// else.
 template <int D, class Real = double>
 struct Laplace : Newton<D, Real> {
   static constexpr char const* class_name = "Laplace";
@@ -27,8 +28,8 @@ struct Coulomb : Laplace<D, Real> {
   }
 };
 
-/// A gravitating particle: strength = mass (the constant G is the law's); masses attract (section 3.5.2, whose listing
-/// repels).
+/// A gravitating particle: strength = mass (the constant G belongs to the law); masses attract (section 3.5.2, whose
+/// listing has the opposite sign).
 template <int D, class Real = double>
 struct Kepler : Laplace<D, Real> {
   static constexpr char const* class_name = "Kepler";

@@ -1,5 +1,4 @@
-// Mesoparticles: groups of atoms taken as one, with the heat of what was left out (dissipative particle dynamics with
-// energy).
+// Mesoparticles: groups of atoms as one particle with internal energy (dissipative particle dynamics with energy).
 #pragma once
 
 #include <boltzmann/particles/newton.hpp>
@@ -7,13 +6,13 @@
 namespace boltzmann {
 
 /// A molecule, or a lump of matter, as one particle: its internal energy is that of the degrees of freedom that are not
-/// followed. A PairDissipation exchanges it with the motion; a StateLaw says which temperature it stands for.
+/// resolved. A PairDissipation exchanges it with the motion; a StateLaw converts it to a temperature.
 template <int D, class Real = double>
 struct Meso : Newton<D, Real> {
   static constexpr char const* class_name = "Meso";
 
   Real internal_energy;
-  Real temperature;  ///< of the internal degrees of freedom, as the dissipation finds it when somebody looks
+  Real temperature;  ///< of the internal degrees of freedom; updated for observers
 
   static FieldTable fields() {
     return Newton<D, Real>::fields()

@@ -6,12 +6,12 @@
 
 namespace boltzmann {
 
-/// A simulation sets it from the integrator of the ensemble when it makes itself ready.
+/// A simulation sets it from the integrator of the ensemble when it prepares a run.
 struct Mobility {
   bool all_rest = false;         ///< the ensemble is deactivated
   std::vector<char> rests = {};  ///< of each particle: 1 if it is frozen; empty: none is
-  /// Of each particle: degrees of freedom that rigid bonds take from it, in the mean over its directions. Empty: none.
-  /// The sum over a molecule is the rank of its bonds.
+  /// Per particle: degrees of freedom that rigid bonds remove, averaged over directions. Empty: none. The sum over a
+  /// molecule is the rank of its bonds.
   std::vector<double> taken = {};
 
   bool moves(std::size_t i) const { return !all_rest && (rests.empty() || rests[i] == 0); }

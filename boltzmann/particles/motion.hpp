@@ -1,4 +1,5 @@
-// Which class of the hierarchy says how a particle moves: what is compiled for that one serves all that derive from it.
+// The class of the hierarchy that defines how a particle moves: code compiled for it serves all classes that derive
+// from it.
 #pragma once
 
 #include <boltzmann/particles/newton.hpp>
@@ -23,7 +24,7 @@ inline constexpr bool depends_on_velocity = [] {
     return false;
 }();
 
-/// Classes with a viscosity do, unless they say `static constexpr bool random_walk = false`.
+/// Classes with a viscosity walk at random, unless they define `static constexpr bool random_walk = false`.
 template <class P>
 inline constexpr bool walks_at_random = [] {
   if constexpr (requires { P::random_walk; })
@@ -54,8 +55,8 @@ struct FirstMotion<P, B, More...> {
   using type = typename std::conditional_t<moves_as<B, P>(), std::type_identity<B>, FirstMotion<P, More...>>::type;
 };
 
-/// The classes whose motion others inherit. Of vortices: those in 3D that are stretched, and in 2D those that exchange
-/// vorticity.
+/// The classes whose motion others inherit; for vortices also those in 3D that are stretched, and in 2D those that
+/// exchange vorticity.
 template <class P, int D = P::dimension>
 struct Motions : FirstMotion<P, Newton<D>, Tracer<D>> {};
 template <class P>
@@ -63,7 +64,7 @@ struct Motions<P, 2> : FirstMotion<P, Newton<2>, Tracer<2>, Diffusive<2>> {};
 template <class P>
 struct Motions<P, 3> : FirstMotion<P, Newton<3>, Tracer<3>, Inviscid<3>> {};
 
-/// Newton, Tracer or a vortex, if P moves as they do; else P itself.
+/// Newton, Tracer or a vortex, if P moves like them; else P itself.
 template <class P>
 using MovesAs = typename Motions<P>::type;
 

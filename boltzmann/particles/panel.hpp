@@ -1,12 +1,12 @@
-// Panel: a piece of the outline of a solid body in a flow (a panel). It feels the flow, and stays.
+// Panel: a piece of the outline of a solid body in a flow. It experiences the flow, but does not move.
 #pragma once
 
 #include <boltzmann/particles/tracer.hpp>
 
 namespace boltzmann {
 
-/// A panel of a body; its position is its middle. What acts on it is the velocity of the flow there without the body,
-/// from which PanelScheme finds the sheet of vorticity that makes the body.
+/// A panel of a body; its position is its middle. Its influence is the velocity of the flow there without the body.
+/// PanelScheme computes from it the vortex sheet that represents the body.
 template <int D, class Real = double>
 struct Panel : Tracer<D, Real> {
   static_assert(D == 2, "panels are lines: bodies of panels stand in 2D");

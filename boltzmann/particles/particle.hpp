@@ -1,4 +1,4 @@
-// Particle: the root of the hierarchy; everything that has a position.
+// Particle: the root of the hierarchy; any object with a position.
 #pragma once
 
 #include <boltzmann/core/vector.hpp>
@@ -6,12 +6,12 @@
 
 namespace boltzmann {
 
-/// A point that can be influenced. `Real` is double for one particle and a Pack in the inner loops; a class holds
-/// nothing but Real and Vector<D, Real>, so that the same struct serves both. To make your own class: derive, add
-/// fields, done. What a class may replace:
+/// A point that can be influenced. `Real` is double for one particle and a Pack in the inner loops. A class has only
+/// members of Real and Vector<D, Real>, so that the same struct serves both. To make your own class, derive from one
+/// and add fields. A class may replace:
 ///   Influence  the type that laws add up for it (a force, a velocity, any struct of Real),
 ///   equations  the equations of motion: calls rate(&Class::field, derivative) for every field that changes in time,
-///   fields     its descriptor table, if its own fields shall have names in files and diagnoses.
+///   fields     its descriptor table, if its own fields need names in files and diagnoses.
 template <int D, class Real = double>
 struct Particle {
   static constexpr int dimension = D;
@@ -20,7 +20,7 @@ struct Particle {
 
   Vector<D, Real> position;
 
-  /// A particle that nothing moves.
+  /// By default nothing moves a particle.
   static void equations(auto const&, auto const&, auto const&) {}
 
   static FieldTable fields() {

@@ -1,4 +1,4 @@
-// The names that formulas of particles may use, and where their numbers stand in a row.
+// The names in formulas of particles, and the offsets of their numbers in a row.
 #include <boltzmann/particles/component_words.hpp>
 #include <boltzmann/particles/particle_formula.hpp>
 

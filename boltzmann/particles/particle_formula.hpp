@@ -1,5 +1,5 @@
-// Formulas of particles: a number, or a vector, for each particle from its place and its fields, "0.5*mass*dot(velocity,
-// velocity)".
+// Formulas of particles: a number, or a vector, for each particle from its position and its fields,
+// "0.5*mass*dot(velocity, velocity)".
 #pragma once
 
 #include <boltzmann/formulas/formula.hpp>
@@ -11,25 +11,25 @@
 
 namespace boltzmann {
 
-/// What may stand in formulas for particles: x, y, z, r (the distance from the origin), and the fields of a class: numbers
-/// ("mass"), vectors ("velocity", "velocity.x"), components of tensors ("stress.xy"); and the speed.
+/// The names in formulas for particles: x, y, z, r (the distance from the origin), the fields of a class, and the
+/// speed. Fields are numbers ("mass"), vectors ("velocity", "velocity.x") and components of tensors ("stress.xy").
 class ParticleNames {
  public:
   ParticleNames(std::vector<Field> const& fields, int dimension, UnitSystem const& units = UnitSystem::reduced());
-  /// Of a place in space alone: x, y, z, r.
+  /// For a point in space: x, y, z, r only.
   explicit ParticleNames(int dimension, UnitSystem const& units = UnitSystem::reduced());
 
   /// The inputs that are the same for all particles.
   std::vector<std::uint32_t> common() const;
-  /// Also `time`.
+  /// Adds `time`.
   void add_time();
   /// Parameters and parts may be added.
   FormulaInputs inputs;
 
-  /// What an input is called, "velocity.y", and of which field it is; empty: of none.
+  /// The name of an input, "velocity.y", and its field; empty: it has none.
   std::string const& name(std::size_t input) const { return places_[input].name; }
   std::string const& field(std::size_t input) const { return places_[input].field; }
-  /// Where an input stands in a row; -1: it is the time.
+  /// The offset of an input in a row; -1: it is the time.
   int offset(std::size_t input) const { return places_[input].offset; }
   std::size_t size() const { return places_.size(); }
 
@@ -41,13 +41,13 @@ class ParticleNames {
   std::vector<InputPlace> places_;
 };
 
-/// A formula with the places of its inputs in a row.
+/// A formula with the offsets of its inputs in a row.
 class ParticleFormula {
  public:
-  /// FormulaError, with the place, if the text is none.
+  /// FormulaError, with the place, if the text is not valid.
   ParticleFormula(std::string_view text, ParticleNames const& names);
 
-  /// For the particle in that row. What follows are the components of a vector.
+  /// For the particle in that row; for a vector the other components follow.
   double operator()(double const* row, double time = 0);
   double component(std::size_t k) const { return formula_.component(k); }
   std::size_t components() const { return formula_.components(); }
@@ -55,17 +55,17 @@ class ParticleFormula {
 
  private:
   Formula formula_;
-  std::vector<int> offsets_;  // of the inputs that stand in it
+  std::vector<int> offsets_;  // of the inputs that it uses
   std::vector<double> values_;
 };
 
-/// A formula for many particles together (CollectiveFormula), with the places of its inputs in a row.
+/// A formula for many particles together (CollectiveFormula), with the offsets of its inputs in a row.
 class ParticlesFormula {
  public:
-  /// FormulaError, with the place, if the text is none.
+  /// FormulaError, with the place, if the text is not valid.
   ParticlesFormula(std::string_view text, ParticleNames const& names);
 
-  /// Of these particles, given by their rows.
+  /// For these particles, given by their rows.
   template <class RowOf>
   void run(std::size_t particles, RowOf const& row_of, double time) {
     formula_.run(particles, [&](std::size_t i, std::span<double> inputs) {

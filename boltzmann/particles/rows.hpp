@@ -1,4 +1,4 @@
-// Rows: how particles stand in memory, and how W of them become one particle of packs.
+// Rows: the memory layout of particles, and loading W of them as one particle of packs.
 #pragma once
 
 #include <boltzmann/core/pack.hpp>
@@ -13,7 +13,7 @@
 
 namespace boltzmann {
 
-/// A particle in memory: the user's own struct, padded to 32 bytes.
+/// A particle in memory: your own struct, padded to 32 bytes.
 template <class P>
 struct alignas(32) Row : P {};
 
@@ -21,7 +21,7 @@ struct alignas(32) Row : P {};
 template <class P>
 inline constexpr std::size_t row_stride = sizeof(Row<P>) / sizeof(double);
 
-/// Doubles that a class really holds.
+/// Doubles of a class without padding.
 template <class P>
 inline constexpr std::size_t row_doubles = sizeof(P) / sizeof(double);
 
@@ -49,15 +49,15 @@ template <class P, class Real>
 using rebind_t = typename detail::rebind<P, Real>::type;
 
 namespace detail {
-/// Stands for Real to show what else a class holds: anything else has another alignment, or a size that isn't a
-/// multiple.
+/// A substitute for Real that reveals members of other types: any other member changes the alignment, or makes the size
+/// no multiple.
 struct OddReal {
   char bytes[67];
 };
 }  // namespace detail
 
-/// Whether a class (or influence) holds nothing but Real and Vector<D, Real>: an int would be read as a double, and a
-/// double of its own not be packed.
+/// True if a class (or influence) has only members of Real and Vector<D, Real>: an int would be read as a double, and a
+/// plain double could not be packed.
 template <class P>
 constexpr bool holds_only_reals() {
   using Odd = rebind_t<P, detail::OddReal>;
@@ -65,7 +65,7 @@ constexpr bool holds_only_reals() {
          sizeof(Odd) == row_doubles<P> * sizeof(detail::OddReal);
 }
 
-/// Doubles of a block: rows consist of blocks, one behind the other, or each in an array of its own.
+/// Doubles of a block: rows consist of blocks, which are contiguous, or each in an array of its own.
 inline constexpr std::size_t row_block = 4;
 
 /// One particle, the same in every lane; `stride` doubles from one block of the row to the next.

@@ -1,4 +1,4 @@
-// Share: which particles of an ensemble this rank of a team advances.
+// Share: the particles of an ensemble that this rank of a team advances.
 #pragma once
 
 #include <boltzmann/core/threads.hpp>
@@ -11,18 +11,18 @@ namespace boltzmann {
 
 class Team;
 
-/// Numbers from `begin` to before `end`.
+/// The range of numbers [begin, end).
 struct Stretch {
   std::size_t begin, end;
 };
 
-/// Of an ensemble that is divided over ranks: what belongs to this one. Rows and influences of others may be of earlier
-/// times here.
+/// For an ensemble that is divided over ranks: the particles that this rank owns. Rows and influences of others may be
+/// of earlier times here.
 struct Share {
-  std::vector<Stretch> stretches;  ///< of numbers, ascending, none longer than `longest`
+  std::vector<Stretch> stretches;  ///< ranges of particle numbers, ascending, none longer than `longest`
   std::size_t size = 0;            ///< of particles
-  /// Set while whoever looks asks for sums over particles alone: each rank adds up its share, this team all of them, and
-  /// rows of others may be old. Null: rows of all are known where somebody looks.
+  /// Set while observers use global sums only: each rank adds up its own particles, and this team adds up the ranks;
+  /// rows of other ranks may be old. Null: observers see current rows of all particles.
   Team* sums = nullptr;
 
   static constexpr std::size_t longest = 1024;
@@ -39,7 +39,8 @@ struct Share {
   }
 };
 
-/// Calls function(first, last) for ranges of stretches, on so many threads: all of them, in no order.
+/// Calls function(first, last) for sequences of stretches that together are all of them, on this number of threads, in
+/// no order.
 template <class Function>
 void for_stretches(std::vector<Stretch> const& stretches, int threads, Function const& function) {
   constexpr std::size_t ranges_a_thread = 8;
@@ -48,7 +49,8 @@ void for_stretches(std::vector<Stretch> const& stretches, int threads, Function 
              [&](std::size_t begin, std::size_t end) { function(stretches.data() + begin, stretches.data() + end); });
 }
 
-/// The same over the particles of an ensemble that this rank advances; ranges of `grain` particles if it advances all.
+/// The same over the particles of an ensemble that this rank advances; in ranges of `grain` particles if it advances
+/// all.
 template <class AnyEnsemble, class Function>
 void for_share_stretches(AnyEnsemble const& ensemble, std::size_t grain, int threads, Function const& function) {
   if (ensemble.share()) return for_stretches(ensemble.share()->stretches, threads, function);

@@ -1,4 +1,4 @@
-// Exact sums over ranks: integers have no order.
+// Exact sums over ranks: they are integers, so the order does not matter.
 #include <boltzmann/core/team.hpp>
 #include <boltzmann/particles/share_sums.hpp>
 

@@ -6,7 +6,7 @@
 
 namespace boltzmann {
 
-/// What the other smooth particles do to one: a force, and the rates of what it carries.
+/// The influence of other smooth particles on one: a force, and the rates of its fields.
 template <int D, class Real>
 struct SmoothInfluence {
   Vector<D, Real> force;
@@ -15,9 +15,8 @@ struct SmoothInfluence {
   Real range_rate;    ///< where ranges follow the density; else zero
 };
 
-/// A piece of a continuum. Mass, velocity and specific energy are its own; density, pressure, temperature and sound
-/// speed are what the scheme finds from its neighbours and its material, for the state as it stands when somebody
-/// looks.
+/// A piece of a continuum. Mass, velocity and specific energy are state; the scheme computes density, pressure,
+/// temperature and sound speed from its neighbours and its material. They are current whenever an observer reads them.
 template <int D, class Real = double>
 struct Smooth : Newton<D, Real> {
   static constexpr char const* class_name = "Smooth";
@@ -25,9 +24,9 @@ struct Smooth : Newton<D, Real> {
   using Influence = SmoothInfluence<D, Real>;
 
   Real specific_energy;  ///< internal energy per mass
-  Real range;            ///< of its weight, which is zero beyond
+  Real range;            ///< of its weight function, which is zero beyond
   Real density;
-  Real pressure;  ///< of its state: what viscosity and strength add is not in it
+  Real pressure;  ///< equation of state only: without viscosity and strength
   Real temperature;
   Real sound_speed;
 
@@ -53,14 +52,14 @@ struct Smooth : Newton<D, Real> {
   }
 };
 
-/// What the others do to a piece of a solid: its stress turns and grows with them, too.
+/// The influence on a piece of a solid: its stress also rotates and grows.
 template <int D, class Real>
 struct SolidInfluence : SmoothInfluence<D, Real> {
   Tensor<D, Real> stress_rate;
   Real plastic_rate;
   Real damage_rate;
   Vector<D, Real> hourglass_rate;
-  Vector<D, Real> inner_force;  ///< the part of the force whose work is heat
+  Vector<D, Real> inner_force;  ///< the part of the force whose work becomes heat
   Real is_completed;            ///< not 0: the scheme advances the fields that lag, see Solid
 };
 
@@ -70,18 +69,18 @@ struct Solid : Smooth<D, Real> {
   static constexpr char const* class_name = "Solid";
   using Influence = SolidInfluence<D, Real>;
 
-  Tensor<D, Real> stress;  ///< deviatoric, positive in tension. In 2D and 1D the rest of it stands on the other axes
-                           ///< (plane, uniaxial strain): its trace over three axes is zero.
+  Tensor<D, Real> stress;  ///< deviatoric, positive in tension. In 2D and 1D the other axes have the rest of it (plane,
+                           ///< uniaxial strain), so that its trace over three axes is zero.
   Real plastic_strain;     ///< equivalent, accumulated
   Real damage;             ///< 0 whole, 1 broken: no tension, no shear
-  Vector<D, Real> hourglass_strain;  ///< how far it has left the linear motion of its neighbours, in spacings
+  Vector<D, Real> hourglass_strain;  ///< deviation from the linear motion of its neighbours, in spacings
 
   // Inside a step of leap-frog only, else 0. Strain follows from velocities as positions do. Leap-frog is stable if it
   // advances stress like positions: by the velocities of the half step, before the forces at the end of the step. If
-  // is_completed is set, leap-frog leaves that to the scheme, which finds rates from velocity - kick.
+  // is_completed is set, leap-frog leaves that to the scheme, which computes rates from velocity - kick.
   Vector<D, Real> kick;  ///< the velocity minus that of the half step
-  Real lag;              ///< the time by which the fields that lag() are behind the others; the scheme clears it
-  Real ahead;            ///< what the specific energy that forces see is ahead of leap-frog's own prediction
+  Real lag;              ///< the time by which the fields that lag() are late; the scheme clears it
+  Real ahead;            ///< the specific energy that forces see, minus leap-frog's own prediction
   /// True for the fields that follow from strain.
   template <class Member>
   static constexpr bool lags(Member member) {

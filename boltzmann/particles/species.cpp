@@ -1,4 +1,4 @@
-// Which species the particles of an ensemble are.
+// Checks the species of the particles of an ensemble.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/particles/ensemble.hpp>
 #include <boltzmann/particles/species.hpp>

@@ -7,8 +7,8 @@ namespace boltzmann {
 
 class AnyEnsemble;
 
-/// A classical particle that says by a number, 0, 1, 2 ..., of which species it is. Laws look up what belongs to a pair
-/// of species: see SpeciesTable and LennardJonesMixture.
+/// A classical particle with the number 0, 1, 2 ... of its species. Laws look up the parameters of a pair of species:
+/// see SpeciesTable and LennardJonesMixture.
 template <int D, class Real = double>
 struct Species : Newton<D, Real> {
   static constexpr char const* class_name = "Species";

@@ -5,13 +5,13 @@
 
 namespace boltzmann {
 
-/// A vortex in a fluid of kinematic viscosity nu whose core grows, d(core^2)/dt = 2 nu: with the Gaussian core of
-/// GaussianBiotSavart that is diffusion, exact for one element. Cores that have become wide carry vorticity wrongly (C.
-/// Greengard, J. Comput. Phys. 61, 345 (1985)), so that they have to be split (CoreSplitter).
+/// A vortex in a fluid of kinematic viscosity nu whose core grows, d(core^2)/dt = 2 nu. With the Gaussian core of
+/// GaussianBiotSavart this is diffusion, exact for one element. Wide cores convect vorticity inaccurately (C.
+/// Greengard, J. Comput. Phys. 61, 345 (1985)), so they have to be split (CoreSplitter).
 template <int D, class Real = double>
 struct Spreading : Inviscid<D, Real> {
   static constexpr char const* class_name = "Spreading";
-  static constexpr bool random_walk = false;  // of classes with a viscosity others do
+  static constexpr bool random_walk = false;  // unlike other classes with a viscosity
 
   Real viscosity;
 

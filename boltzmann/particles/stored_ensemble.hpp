@@ -1,4 +1,4 @@
-// StoredEnsemble: particles of a class that is known by its fields alone, as files have them.
+// StoredEnsemble: particles of a class that is defined by its fields only, read from files.
 #pragma once
 
 #include <boltzmann/particles/ensemble.hpp>
@@ -9,10 +9,10 @@
 
 namespace boltzmann {
 
-/// Nothing moves them, and they have no influences.
+/// They have no equations of motion and no influences.
 class StoredEnsemble final : public AnyEnsemble {
  public:
-  /// `doubles` of each particle; the fields stand where they say.
+  /// `doubles` of each particle; fields are at their offsets.
   StoredEnsemble(std::string name, std::string class_name, int dimension, std::size_t doubles,
                  std::vector<Field> fields)
       : AnyEnsemble(std::move(name), std::move(class_name), typeid(void), dimension,
@@ -27,7 +27,7 @@ class StoredEnsemble final : public AnyEnsemble {
   std::shared_ptr<void const> hold_rows() const override { return rows_.hold(); }
 
  private:
-  struct alignas(32) Block {  // as rows of every class are
+  struct alignas(32) Block {  // the alignment of rows of every class
     double numbers[row_block] = {};
   };
   HeldArray<Block> rows_;

@@ -5,14 +5,14 @@
 
 namespace boltzmann {
 
-/// What vortices do to a vortex in 3D: a velocity, and the rate at which its vorticity is stretched and turned.
+/// The influence on a vortex in 3D: a velocity, and the rate at which its vorticity is stretched and turned.
 template <class Real>
 struct VortexInfluence {
   Vector<3, Real> velocity;
   Vector<3, Real> stretching;
 };
 
-/// What vortices do to a Diffusive one in 2D: a velocity, and the rate at which its circulation changes.
+/// The influence on a Diffusive vortex in 2D: a velocity, and the rate at which its circulation changes.
 template <class Real>
 struct ExchangeInfluence {
   Vector<2, Real> velocity;
@@ -55,8 +55,8 @@ struct Inviscid<3, Real> : Vortex<3, Real> {
   }
 };
 
-/// A vortex in a fluid of kinematic viscosity nu: besides the flow it takes a random walk (Eq 3.13), which the
-/// integrator adds.
+/// A vortex in a fluid of kinematic viscosity nu. Besides moving with the flow it takes a random walk (Eq 3.13), which
+/// the integrator adds.
 template <int D, class Real = double>
 struct Viscous : Inviscid<D, Real> {
   static constexpr char const* class_name = "Viscous";
@@ -71,7 +71,8 @@ struct Viscous : Inviscid<D, Real> {
 
 namespace detail {
 
-/// What a Diffusive vortex adds to an Inviscid one: a circulation that changes in 2D; in 3D vorticity changes already.
+/// The difference between a Diffusive and an Inviscid vortex: in 2D its circulation changes; in 3D the vorticity
+/// already does.
 template <int D, class Real>
 struct Exchanging : Inviscid<D, Real> {};
 
@@ -87,12 +88,12 @@ struct Exchanging<2, Real> : Inviscid<2, Real> {
 
 }  // namespace detail
 
-/// A vortex in a fluid of kinematic viscosity nu that goes where the flow carries it: it exchanges vorticity with its
-/// neighbours by the law VorticityExchange, which needs the space that it stands for.
+/// A vortex in a fluid of kinematic viscosity nu that moves with the flow. It exchanges vorticity with its neighbours
+/// by the law VorticityExchange, which needs the volume that the vortex represents.
 template <int D, class Real = double>
 struct Diffusive : detail::Exchanging<D, Real> {
   static constexpr char const* class_name = "Diffusive";
-  static constexpr bool random_walk = false;  // of classes with a viscosity others do
+  static constexpr bool random_walk = false;  // unlike other classes with a viscosity
 
   Real viscosity, volume;
 

@@ -1,4 +1,4 @@
-// Cuts by the work of before, and the messages that bring together what ranks have found.
+// Cuts from measured work, and the messages that gather the results of ranks.
 #include <boltzmann/particles/work_shares.hpp>
 
 #include <algorithm>
@@ -22,7 +22,7 @@ WorkShares::Cuts WorkShares::balanced(std::size_t items) const {
   return cuts;
 }
 
-/// Cuts where all work would be in equal shares if that of each part were spread evenly over it.
+/// The cuts for equal work, if the work of each part is uniform inside it.
 void WorkShares::took(Cuts const& cuts, std::vector<Work> const& work) {
   double all = 0;
   for (Work const& of_rank : work)

@@ -1,12 +1,12 @@
-// Canvas: what a diagnosis draws on. A recorded list of circles, points, lines, arrows, curves, texts and images in
+// Canvas: the drawing surface of diagnoses. It records circles, points, lines, arrows, curves, texts and images in
 // simulation units.
 //
-// The list knows nothing of pixels, files or browsers: figure.hpp makes pictures of it, the window sends it to a page.
-// Coordinates that are not finite are left out when they are recorded (a curve gets a gap) and counted. Labels are
-// UTF-8; ^{...} raises, _{...} lowers.
+// The record is independent of pixels, files and browsers: figure.hpp renders it to pictures, the window sends it to a
+// page. Marks with coordinates that are not finite are omitted and counted (a curve gets a gap). Labels are UTF-8;
+// ^{...} raises, _{...} lowers.
 //
-// A canvas is flat, or a space that is looked at from somewhere: then marks have a z, and projection.hpp makes a flat
-// canvas of it.
+// A canvas is flat, or a space seen through a projection. In a space marks have a z, and projection.hpp converts it to
+// a flat canvas.
 #pragma once
 
 #include <boltzmann/pictures/colour.hpp>
@@ -23,8 +23,7 @@
 
 namespace boltzmann {
 
-/// What is written along an axis, "label (unit)", and what it shows: low..high, where NaN means automatic, from the
-/// content.
+/// The title of an axis, "label (unit)", and its range low..high. NaN is automatic, from the content.
 struct Axis {
   std::string label, unit;
   double low = std::numeric_limits<double>::quiet_NaN();
@@ -33,40 +32,40 @@ struct Axis {
   double factor = 1;  ///< the numbers at the ticks are coordinates times this, in `unit`
 };
 
-/// From where one looks at three dimensions, in degrees: azimuth around the z axis (0 = along x), elevation above the
-/// xy plane (90 = from above). Parallel rays, z is up.
+/// The direction of view in three dimensions, in degrees: azimuth around the z axis (0 = along x), elevation above the
+/// xy plane (90 = from above). Parallel projection, z is up.
 struct Projection {
   double azimuth = 35, elevation = 22;
 
   struct Place {
     double right, up, near;
   };
-  /// Where a position falls on the picture, and how near it is to the eye.
+  /// The projected position in the picture, and its depth.
   Place operator()(double x, double y, double z) const;
 };
 
 class Canvas {
  public:
-  /// Many discs at once, the particles of one ensemble, in single precision: particle k is drawn at
-  /// origin + scale * position[k], axis by axis.
+  /// Many discs at once, for the particles of one ensemble, in single precision. Particle k is drawn at origin + scale
+  /// * position[k], axis by axis.
   struct Cloud {
-    int dimension = 2;  ///< 2 or 3: numbers in `position` for each particle
+    int dimension = 2;  ///< 2 or 3: numbers per particle in `position`
     std::array<double, 3> origin{0, 0, 0}, scale{1, 1, 1};
     std::vector<float> position;
-    std::vector<float> value;  ///< where on the map of colours, 0..1 (NaN: no value); empty: all have `colour`
+    std::vector<float> value;  ///< position in the colour map, 0..1 (NaN: no value); empty: all have `colour`
     ColourMap map = ColourMap::viridis;
     Colour colour = ink;
-    std::vector<float> diameter;  ///< of each, in units of the x axis; empty: all have common_diameter
+    std::vector<float> diameter;  ///< per particle, in units of the x axis; empty: all have common_diameter
     double common_diameter = 0;   ///< 0 (and no diameters): points, `size` pixels wide
     float size = 4;
-    bool shaded = false;                ///< looks like spheres
-    std::string ensemble;               ///< its name: with the number, what a reader can ask more about
-    std::vector<std::uint32_t> number;  ///< of each particle in its ensemble; empty: 0, 1, 2, ...
-    std::uint32_t stride = 1;           ///< one of so many particles is here
+    bool shaded = false;                ///< shaded like spheres
+    std::string ensemble;               ///< name of the ensemble; with the number it identifies a particle
+    std::vector<std::uint32_t> number;  ///< number of each particle in its ensemble; empty: 0, 1, 2, ...
+    std::uint32_t stride = 1;           ///< one of this number of particles is shown
 
     std::size_t count() const { return position.size() / static_cast<std::size_t>(dimension); }
   };
-  // Marks: x, y, z are coordinates of the axes, in the simulation's units (not times Axis::factor); widths and sizes
+  // Marks: x, y, z are coordinates of the axes, in the simulation's units (not times Axis::factor). Widths and sizes
   // are pixels of a picture of 1200 x 900.
   /// radius in units of the x axis. Shaded circles look like spheres. depth: 0 (near) to 1 (far, faded towards the
   /// paper).
@@ -97,7 +96,7 @@ class Canvas {
     Colour colour = ink;
     double z0 = 0, z1 = 0;
   };
-  /// A label puts the curve into the legend.
+  /// A label adds the curve to the legend.
   struct Curve {
     std::vector<double> x = {}, y = {};
     float width = 2;
@@ -106,7 +105,7 @@ class Canvas {
     bool dashed = false;
     std::vector<double> z = {};  ///< empty: 0
   };
-  /// align: 0 = the text begins at x, 0.5 = it is centred there, 1 = it ends there; its middle is at y.
+  /// align: 0 = the text begins at x, 0.5 = it is centred there, 1 = it ends there. It is vertically centred at y.
   struct Text {
     double x = 0, y = 0;
     std::string text = {};
@@ -132,14 +131,13 @@ class Canvas {
     Colour colour;
   };
   enum class Kind : std::uint8_t { circle, point, line, arrow, curve, text, image, cloud };
-  /// The drawing order: `count` elements of one list, beginning at `first`.
+  /// An item of the drawing order: `count` elements of one list, from `first` on.
   struct Run {
     Kind kind;
     std::size_t first, count;
   };
 
-  // Drawing: later ones cover earlier ones. In a space give marks as they are, with a z:
-  // canvas.point({.x = 1, .y = 2, .z = 3}).
+  // Drawing: later marks cover earlier ones. In a space, pass marks with a z: canvas.point({.x = 1, .y = 2, .z = 3}).
   void circle(double x, double y, double radius, Colour colour = ink, bool filled = true);
   void circle(Circle circle);
   void point(double x, double y, Colour colour = ink, float size = 4);
@@ -149,7 +147,7 @@ class Canvas {
   void rectangle(double x0, double y0, double x1, double y1, Colour colour = ink, float width = 1.5F);
   void arrow(double x0, double y0, double x1, double y1, Colour colour = ink, float width = 1.5F);
   void arrow(Arrow const& arrow);
-  /// Throws Error if x and y (and z, where there is one) differ in length.
+  /// Throws Error if x and y (and z, if given) differ in length.
   void curve(std::span<double const> x, std::span<double const> y, Colour colour = ink, std::string label = "",
              float width = 2, bool dashed = false);
   void curve(Curve curve);
@@ -160,27 +158,27 @@ class Canvas {
   void image(double x0, double y0, double x1, double y1, int columns, int rows, std::span<double const> values,
              double low, double high, ColourMap map = ColourMap::viridis);
 
-  /// Throws Error if its arrays don't fit together. Particles whose place is not finite stay in it, are not drawn, and
-  /// are counted, unless who made the cloud has counted them.
+  /// Throws Error if its arrays have inconsistent sizes. Particles with a position that is not finite are kept, not
+  /// drawn, and counted, unless the caller passes their number.
   void cloud(Cloud cloud, std::optional<std::size_t> not_finite = {});
-  /// Gives the clouds away, for their memory; the canvas must not be shown any more.
+  /// Moves the clouds out, to recycle their memory. The canvas must not be used afterwards.
   std::vector<Cloud> take_clouds() { return std::move(clouds_); }
 
-  // What stands around the drawing.
+  // Axes and texts around the drawing.
   void axes(Axis x, Axis y);
-  /// Makes a space of the canvas, seen through `projection`; its box goes from low to high of each axis (NaN: around
+  /// Makes the canvas a space, seen through `projection`. Its box extends from low to high of each axis (NaN: around
   /// the content).
   void axes(Axis x, Axis y, Axis z, Projection const& projection = {});
-  /// One unit is as long on x as on y.
+  /// If `equal`, x and y have the same scale.
   void equal_aspect(bool equal) { equal_aspect_ = equal; }
   void grid(bool shown) { grid_ = shown; }
-  /// Without a frame there are no ticks and axis titles either (projections).
+  /// Without a frame, ticks and axis titles are not drawn either (projections).
   void frame(bool shown) { frame_ = shown; }
   void colour_bar(std::string label, std::string unit, double low, double high, ColourMap map = ColourMap::viridis,
                   double factor = 1);
   void legend(std::string label, Colour colour);
   void title(std::string title) { title_ = std::move(title); }
-  /// A line below the drawing; each call adds one.
+  /// Adds a line of text below the drawing.
   void note(std::string line) { notes_.push_back(std::move(line)); }
 
   // The record.
@@ -200,12 +198,12 @@ class Canvas {
   Axis const& x_axis() const { return x_axis_; }
   Axis const& y_axis() const { return y_axis_; }
   Axis const& z_axis() const { return z_axis_; }
-  /// From where a space is seen; nothing if the canvas is flat.
+  /// The projection of a space; nothing if the canvas is flat.
   std::optional<Projection> const& projection() const { return projection_; }
   bool equal_aspect() const { return equal_aspect_; }
   bool grid() const { return grid_; }
   bool frame() const { return frame_; }
-  /// How many elements, nodes of curves and particles of clouds had a coordinate that is NaN or infinite.
+  /// The number of elements, nodes of curves and particles of clouds with a coordinate that is NaN or infinite.
   std::size_t not_finite() const { return not_finite_; }
   void not_finite(std::size_t count) { not_finite_ = count; }
 
@@ -233,7 +231,7 @@ class Canvas {
   std::size_t not_finite_ = 0;
 };
 
-/// The place of a value in low..high as 0..1, for map_colour; 0.5 if low = high, NaN for NaN.
+/// The relative position of a value in low..high as 0..1, for map_colour; 0.5 if low = high, NaN for NaN.
 double place_between(double low, double high, double value);
 
 }  // namespace boltzmann

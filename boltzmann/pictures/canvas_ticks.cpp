@@ -1,4 +1,4 @@
-// Steps of 1, 2, 5 times a power of ten, and labels as short as they can be.
+// Tick steps of 1, 2, 5 times a power of ten, and labels as short as possible.
 #include <boltzmann/pictures/canvas_ticks.hpp>
 
 #include <fmt/format.h>
@@ -22,7 +22,7 @@ std::string with_minus(std::string text) {
 std::string integer_text(std::int64_t value) { return with_minus(std::to_string(value)); }
 std::string power_text(int exponent) { return times_ten + integer_text(exponent) + "}"; }
 
-// units * 10^exponent, in doubles as near as can be.
+// units * 10^exponent, in doubles as accurately as possible.
 double scaled(double units, int exponent) {
   return exponent < 0 ? units / std::pow(10.0, -exponent) : units * std::pow(10.0, exponent);
 }
@@ -79,7 +79,7 @@ Ticks linear_ticks(double low, double high, int most, int at_most_exponent = 400
   }
 
   std::int64_t const largest = std::max(std::llabs(step.first), std::llabs(step.last)) * step.mantissa;
-  if (largest >= 100000) {  // too many digits: what all ticks share is written once
+  if (largest >= 100000) {  // too many digits: the common part of all ticks is written once
     std::int64_t const middle = (step.first + step.last) / 2 * step.mantissa;
     std::int64_t const shared = (middle + (middle < 0 ? -50 : 50)) / 100 * 100;
     for (std::int64_t i = step.first; i <= step.last; ++i)

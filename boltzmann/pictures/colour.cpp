@@ -1,5 +1,5 @@
-// The named colours, the species palette and the colour maps, which are made of few nodes in OKLab, where equal steps
-// look equal.
+// The named colours, the species palette and the colour maps. Maps are interpolated between a few nodes in OKLab, where
+// equal steps look equal.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/pictures/colour.hpp>
 
@@ -28,7 +28,7 @@ double to_screen(double l) {
   return l <= 0.0031308 ? 12.92 * l : 1.055 * std::pow(l, 1 / 2.4) - 0.055;
 }
 
-// The matrices of OKLab (B. Ottosson 2020, given to the public domain).
+// The matrices of OKLab (B. Ottosson 2020, public domain).
 Lab to_lab(Colour c) {
   double const r = to_linear(c.red), g = to_linear(c.green), b = to_linear(c.blue);
   double const l = std::cbrt(0.4122214708 * r + 0.5363325363 * g + 0.0514459929 * b);
@@ -80,7 +80,7 @@ Lab through(std::span<Lab const> nodes, double t) {
 Colour compute(ColourMap map, double t) {
   switch (map) {
     case ColourMap::viridis: {
-      // Nine anchors of the widely known map of S. van der Walt and N. Smith; what lies between is a curve of ours.
+      // Nine nodes of the well-known map of S. van der Walt and N. Smith, interpolated by a spline.
       static std::array<Lab, 9> const nodes = {to_lab(hex(0x440154)), to_lab(hex(0x472d7b)), to_lab(hex(0x3b528b)),
                                                to_lab(hex(0x2c728e)), to_lab(hex(0x21918c)), to_lab(hex(0x28ae80)),
                                                to_lab(hex(0x5ec962)), to_lab(hex(0xaddc30)), to_lab(hex(0xfde725))};

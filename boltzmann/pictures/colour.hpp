@@ -1,4 +1,4 @@
-// Colours: the named colours, a palette for species that the colour-blind can tell apart, and colour maps for values.
+// Colours: the named colours, a palette for species suitable for the colour-blind, and colour maps for values.
 #pragma once
 
 #include <span>
@@ -13,33 +13,33 @@ struct Colour {
   friend bool operator==(Colour const&, Colour const&) = default;
 };
 
-/// The colour of text and frames, chosen when the picture is made: nearly black on light paper, nearly white on dark
-/// paper.
+/// The colour of text and frames, resolved when the picture is rendered: nearly black on light paper, nearly white on
+/// dark paper.
 inline constexpr Colour ink{-1, -1, -1, 1};
 constexpr bool is_ink(Colour colour) { return colour.red < 0; }
 
-/// What stands for "no value": map_colour of a NaN.
+/// The colour of missing values: map_colour of a NaN.
 inline constexpr Colour no_value_grey{0.62F, 0.62F, 0.62F, 1};
 
 /// The twelve colours of the window of 1990 (white black blue navy lightblue seagreen green yellow brown orange pink
-/// red), "ink", or "#rrggbb". Throws Error on any other word.
+/// red), "ink", or "#rrggbb". Throws Error for any other word.
 Colour colour_named(std::string_view name);
 std::span<std::string const> colour_names();
 
 /// The colour of the species with this index (0, 1, ...): eight colours of distinct hue and lightness, then lighter and
-/// darker variants. Negative indices give grey.
+/// darker variants. Grey for negative indices.
 Colour species_colour(int index);
 
-/// a for fraction = 0, b for fraction = 1, along a straight line in sRGB; alpha likewise.
+/// Interpolates linearly in sRGB from a (fraction = 0) to b (fraction = 1); alpha likewise.
 Colour mixed(Colour a, Colour b, double fraction);
 Colour with_alpha(Colour colour, double alpha);
 
 /// viridis: dark violet to yellow; ember: black over red to pale yellow; grey: dark to light; diverging: blue over
-/// white to red, the middle is 0.5; cyclic: all hues at one lightness, for angles (0 and 1 are the same). The first
-/// three rise evenly in lightness.
+/// white to red, with 0.5 in the middle; cyclic: all hues at one lightness, for angles (0 and 1 are the same). The
+/// lightness of the first three increases uniformly.
 enum class ColourMap { viridis, ember, grey, diverging, cyclic };
 
-/// The colour at a place in 0..1 of the map; outside it is clamped, NaN gives no_value_grey.
+/// The colour at a position in 0..1 of the map. Positions outside are clamped; NaN gives no_value_grey.
 Colour map_colour(ColourMap map, double zero_to_one);
 
 /// The map with this name. Throws Error that lists the names.

@@ -1,4 +1,4 @@
-// Marching squares, and the segments joined to lines.
+// Marching squares; the segments are joined to lines.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/pictures/contours.hpp>
 
@@ -23,7 +23,7 @@ class Marching {
       for (std::size_t i = 0; i < grid.cells(0); ++i) march(i, j);
   }
 
-  /// Appends the lines: first those that begin at a wall, then those that close.
+  /// Appends the lines: first those that begin at a wall, then closed ones.
   void join(std::vector<ContourLine>& lines) {
     for (std::size_t edge = 0; edge < next_.size(); ++edge)
       if (next_[edge] != none && entered_[edge] == 0) lines.push_back(followed(edge));
@@ -34,7 +34,7 @@ class Marching {
  private:
   static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
 
-  // Walks through a cell: corners and edges anticlockwise, from the low corner and the lower edge on.
+  // Visits a cell: corners and edges anticlockwise, from the low corner and the lower edge on.
   void march(std::size_t i, std::size_t j) {
     std::size_t const right = (i + 1) % grid_.nodes[0], upper = (j + 1) % grid_.nodes[1];
     std::array<std::size_t, 4> const node{grid_.index(i, j), grid_.index(right, j), grid_.index(right, upper),
@@ -49,10 +49,10 @@ class Marching {
       count += above[c];
     }
     if (!std::isfinite(mean) || count == 0 || count == 4) return;
-    // With larger values on the left a segment begins where, anticlockwise, above turns into below.
+    // Larger values are on the left, so a segment begins where above changes to below in anticlockwise order.
     bool const saddle = above[0] == above[2] && above[1] == above[3];
     if (saddle) {
-      // What the middle is like is connected; the two other corners are cut off.
+      // Corners on the same side of the level as the middle are connected; the two others are cut off.
       bool const cut_off = !(mean >= level_);
       for (std::size_t c = 0; c < 4; ++c) {
         if (above[c] != cut_off) continue;
@@ -91,7 +91,7 @@ class Marching {
             grid_.position(1, j) + (along == 1 ? t * grid_.spacing[1] : 0)};
   }
 
-  // Follows the segments from an edge on, and takes them away.
+  // Follows the segments from an edge on, and removes them.
   ContourLine followed(std::size_t const first) {
     ContourLine line{level_, false, {}, {}};
     for (std::size_t edge = first; edge != none;) {

@@ -30,7 +30,7 @@ struct Limits {
     low = -high;
   }
   double width() const { return empty() ? 0 : high - low; }
-  /// To an axis that lacks them.
+  /// Sets missing ends of an axis.
   void give_ends(Axis& axis) const {
     if (axis.logarithmic || !(width() > 0)) return;
     if (!std::isfinite(axis.low)) axis.low = low;
@@ -125,7 +125,7 @@ Canvas draw_profile(std::span<Series const> series, Axis x, Axis y, std::string 
 
 namespace {
 
-// The axes of a mesh of so many cells, from low to high.
+// Completes the axis of a mesh with this number of cells, from low to high.
 void complete(Axis& axis, int cells) {
   if (!std::isfinite(axis.low)) axis.low = 0;
   if (!std::isfinite(axis.high)) axis.high = axis.low + std::max(cells, 1);

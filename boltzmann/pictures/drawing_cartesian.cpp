@@ -13,7 +13,7 @@
 namespace boltzmann {
 namespace {
 
-using Positions = std::vector<std::span<double const>>;  // one array for each axis
+using Positions = std::vector<std::span<double const>>;  // one array per axis
 
 void need_length(std::size_t found, std::size_t wanted, std::string const& what) {
   if (found != wanted)
@@ -54,7 +54,7 @@ Colour colour_of(CartesianStyle const& style, int species) {
   return own ? style.species_colours[static_cast<std::size_t>(species)] : species_colour(species);
 }
 
-// The ends of the colours.
+// The ends of the colour range.
 std::array<double, 2> ends_of(CartesianStyle const& style) {
   Extremes limits(style.value);
   if (limits.empty()) limits.low = limits.high = 0;
@@ -69,7 +69,7 @@ std::array<double, 2> ends_of(CartesianStyle const& style) {
 
 constexpr Colour connection_colour{0.50F, 0.53F, 0.57F, 1};
 
-// The shortest way from a to b along an axis that may be periodic.
+// The shortest distance from a to b along an axis that may be periodic.
 double shortest(double way, CartesianStyle const& style, std::size_t axis) {
   if (axis < style.box.size() && style.periodic[axis]) {
     double const width = style.box[axis][1] - style.box[axis][0];
@@ -78,7 +78,7 @@ double shortest(double way, CartesianStyle const& style, std::size_t axis) {
   return way;
 }
 
-// One cloud for each species, in ascending order.
+// One cloud per species, in ascending order.
 std::vector<Canvas::Cloud> clouds_of(Positions const& position, CartesianStyle const& style,
                                      std::array<double, 2> const& ends) {
   Canvas::Cloud like;
@@ -144,7 +144,7 @@ Canvas draw(Positions const& position, CartesianStyle const& style, Projection c
   note_without_value(canvas, static_cast<std::size_t>(std::count_if(style.value.begin(), style.value.end(),
                                                                     [](double v) { return std::isnan(v); })));
   std::array<std::array<double, 2>, 3> box{};
-  if (projection) {  // around the particles, whatever comes with them
+  if (projection) {  // fit to the particles only
     box = space_box(canvas);
     std::array<Axis, 3> axes{canvas.x_axis(), canvas.y_axis(), canvas.z_axis()};
     for (std::size_t a = 0; a < 3; ++a) axes[a].low = box[a][0], axes[a].high = box[a][1];

@@ -1,4 +1,4 @@
-// Histograms: how often values occur, as stairs.
+// Histograms as step curves.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/pictures/draw_arrays.hpp>
 
@@ -11,8 +11,8 @@ namespace {
 
 constexpr std::size_t min_bins = 10, max_bins = 200;
 
-// The width of bins that D. Freedman and P. Diaconis give (Z. Wahrscheinlichkeitstheorie 57 (1981) 453); 0 if half of
-// the values are the same. Of many values, some ten thousand tell the quartiles well enough.
+// The bin width of D. Freedman and P. Diaconis (Z. Wahrscheinlichkeitstheorie 57 (1981) 453); 0 if half of the values
+// are equal. For many values, about ten thousand determine the quartiles well enough.
 double fitting_width(std::vector<double> const& all) {
   if (all.size() < 2) return 0;
   std::size_t const every = all.size() / 10'000 + 1;
@@ -45,7 +45,7 @@ std::vector<Histogram> histograms(std::span<std::span<double const> const> sampl
   if (open_low) low = smallest;
   if (open_high) high = largest;
   if (low > high && !open_low && !open_high) std::swap(low, high);
-  if (!(high > low)) {  // one value
+  if (!(high > low)) {  // all values are equal
     double const room = low != 0 ? 0.05 * std::abs(low) : 1;
     if (open_high || !open_low) high = low + room;
     if (open_low) low = high - (open_high ? 2 * room : room);

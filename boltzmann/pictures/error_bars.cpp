@@ -1,4 +1,5 @@
-// Bars are lines with a small stroke at each end, whose length is a part of the picture whatever the axes show.
+// Bars are lines with a short stroke at each end. The length of strokes is a fraction of the picture, independent of
+// the axes.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/pictures/error_bars.hpp>
 #include <boltzmann/pictures/figure_layout.hpp>
@@ -12,7 +13,7 @@ namespace boltzmann {
 namespace {
 
 constexpr double picture_width_to_height = 4.0 / 3;
-constexpr double stroke = 0.005;  // half of the one at the end of a bar, as a part of the axis
+constexpr double stroke = 0.005;  // half the length of a stroke, as a fraction of the axis
 
 Colour series_colour(std::span<MeasuredSeries const> series, std::size_t s) {
   return series[s].colour.value_or(species_colour(static_cast<int>(s)));
@@ -31,13 +32,13 @@ double error_at(std::span<double const> errors, std::size_t i) {
   return i < errors.size() && std::isfinite(errors[i]) ? errors[i] : 0;
 }
 
-/// A place of the axis moved by a part of what it shows.
+/// A value shifted by a fraction of the axis.
 double moved(double value, double part, AxisRange const& axis) {
   if (!axis.logarithmic) return value + part * (axis.high - axis.low);
   return value * std::pow(axis.high / axis.low, part);
 }
 
-/// The low end of a bar; on a logarithmic axis one that reaches below zero goes to the axis' own end.
+/// The low end of a bar. On a logarithmic axis, one that extends below zero ends at the low end of the axis.
 double low_end(double value, double error, AxisRange const& axis) {
   double const low = value - error;
   return axis.logarithmic && low <= 0 ? std::min(axis.low, value) : low;
@@ -64,7 +65,7 @@ void draw_bars(Canvas& canvas, MeasuredSeries const& one, std::size_t i, Colour 
   }
 }
 
-/// What the axes will show: the measurements with the ends of all bars.
+/// The ranges of the axes: the measurements with the ends of all bars.
 std::array<AxisRange, 2> ranges_with_bars(std::span<MeasuredSeries const> series, Axis const& x, Axis const& y) {
   Canvas all;
   all.axes(x, y);
@@ -137,7 +138,7 @@ Canvas draw_measured_time_series(std::span<MeasuredSeries const> series, Axis x,
   for (std::size_t s = 0; s < series.size(); ++s) {
     Colour const colour = series_colour(series, s);
     canvas.curve(series[s].x, series[s].y, colour, series[s].label, 2.4F);
-    // Every so many nodes, beginning where no other series does.
+    // Selects nodes at a fixed interval, with an offset that no other series has.
     std::size_t const count = series[s].x.size(), every = std::max<std::size_t>(1, count / 20);
     for (std::size_t i = every * s / series.size(); i < count; i += every)
       draw_bars(canvas, series[s], i, colour, ranges);

@@ -1,4 +1,4 @@
-// Pages as PNG, SVG and PDF, in memory and as files.
+// Renders pages as PNG, SVG and PDF, in memory and to files.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/pictures/figure.hpp>
 #include <boltzmann/pictures/figure_page.hpp>
@@ -34,7 +34,7 @@ enum class Format { png, svg, pdf };
 
 constexpr std::array<char const*, 3> format_names{"png", "svg", "pdf"};
 
-/// The format that a path ends in; the end if it is none.
+/// The format for the extension of a path; the extension itself if it is unknown.
 auto format_of(std::string const& path) {
   return std::find_if(format_names.begin(), format_names.end(),
                       [&](char const* name) { return path.ends_with(std::string(".") + name); });
@@ -45,7 +45,7 @@ cairo_status_t put(void* bytes, unsigned char const* data, unsigned length) {
   return CAIRO_STATUS_SUCCESS;
 }
 
-// `what` is told of in errors: "can't write picture 'a.png'".
+// `what` is the context in errors: "can't write picture 'a.png'".
 void check(FigureOptions const& options, std::string const& what) {
   auto allowed = [&](int pixels) { return pixels * options.scale >= 16 && pixels * options.scale <= 20000; };
   if (!allowed(options.width) || !allowed(options.height))
@@ -58,7 +58,7 @@ double unit_of(FigureOptions const& options) {
   return std::max(std::sqrt(static_cast<double>(options.width) * options.height / (1200.0 * 900)), 0.4);
 }
 
-// Pages of pixels have whole ones.
+// The size of raster pages is rounded to whole pixels.
 Page page_of(cairo_t* cairo, FigureOptions const& options, double per_pixel, bool whole) {
   auto const side = [&](int pixels) {
     return whole ? static_cast<double>(std::lround(pixels * per_pixel)) : pixels * per_pixel;

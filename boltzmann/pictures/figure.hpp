@@ -1,5 +1,4 @@
-// Figures: a canvas as a picture for a paper or a page, PNG, SVG or PDF. A space is shown as it is seen through its
-// projection.
+// Figures: renders a canvas as PNG, SVG or PDF. A space is shown through its projection.
 #pragma once
 
 #include <boltzmann/pictures/canvas.hpp>
@@ -9,29 +8,30 @@
 
 namespace boltzmann {
 
-/// width and height in pixels; with scale = 2 the same picture has twice as many pixels each way (for print). Text,
-/// lines and points keep their proportion to the picture: at 1200 x 900 their sizes are as recorded.
+/// width and height in pixels. With scale = 2 the same picture has twice as many pixels in each direction (for print).
+/// Text, lines and points keep their size relative to the picture: at 1200 x 900 sizes are as recorded.
 struct FigureOptions {
   int width = 1200, height = 900;
   double scale = 1;
   bool dark = false;
 };
 
-/// Whether a path ends in .png, .svg or .pdf.
+/// True if a path ends in .png, .svg or .pdf.
 bool ends_as_picture(std::string const& path);
 
-/// Writes the canvas with frame, ticks, axis titles, legend, colour bars and notes, as the extension of the path says;
-/// the page of a PDF is width x height at 150 pixels per inch, times scale. The picture is first written to path +
-/// ".part" and then renamed, so that no half picture is ever left at `path`. Throws Error if the path ends in another
-/// way, if it can't be written (names path and reason) or if the size is not within 16..20000 pixels after scaling.
+/// Writes the canvas with frame, ticks, axis titles, legend, colour bars and notes, in the format of the extension of
+/// the path. The page of a PDF is width x height at 150 pixels per inch, times scale. The picture is first written to
+/// path + ".part" and then renamed, so that no incomplete picture remains at `path`. Throws Error if the extension is
+/// unknown, if the path can't be written (with path and reason) or if the size is not within 16..20000 pixels after
+/// scaling.
 void write_picture(Canvas const& canvas, std::string const& path, FigureOptions const& options = {});
 
-/// The same picture in memory: the bytes of a file. `format` is "png", "svg" or "pdf"; Error on any other, and as
-/// above.
+/// The same picture in memory: the bytes of a file. `format` is "png", "svg" or "pdf". Throws Error for any other, and
+/// as above.
 std::string picture_bytes(Canvas const& canvas, std::string const& format, FigureOptions const& options = {});
 
-/// Where the frame (or, without a frame, what it would enclose) stands in a PNG, in pixels from the upper left corner,
-/// and which part of the axes it shows; for a space those of the flat canvas made of it.
+/// The position of the frame (or of the area that it would enclose) in a PNG, in pixels from the upper left corner, and
+/// the ranges of the axes. For a space, those of the flattened canvas.
 struct PictureLayout {
   double left, top, width, height;
   AxisRange x, y;

@@ -8,7 +8,7 @@ namespace boltzmann {
 namespace {
 
 constexpr double padding = 0.03;
-constexpr double huge = 8e307;  // two of them can still be subtracted
+constexpr double huge = 8e307;  // the difference of two such numbers is still finite
 
 struct Extent {
   double low = std::numeric_limits<double>::infinity(), high = -low;
@@ -30,7 +30,7 @@ struct Extent {
   bool empty() const { return low > high; }
 };
 
-// Whether a value of a cloud's particle is one to draw.
+// True if a particle at this position is drawn.
 bool is_drawn(double x, double y) { return std::isfinite(x) && std::isfinite(y); }
 
 // Calls with (x, y, radius) for every particle of a cloud.
@@ -45,7 +45,7 @@ void each_place(Canvas::Cloud const& cloud, Visit visit) {
   }
 }
 
-// The corners of a cloud whose particles have one size: far quicker than one by one, and the same.
+// Calls for the corners of a cloud whose particles have one size: the same result, and much faster.
 template <class Visit>
 void corners(Canvas::Cloud const& cloud, Visit visit) {
   constexpr float infinity = std::numeric_limits<float>::infinity();
@@ -63,7 +63,7 @@ void corners(Canvas::Cloud const& cloud, Visit visit) {
           cloud.origin[1] + cloud.scale[1] * static_cast<double>(corner[1]), std::abs(cloud.common_diameter) / 2);
 }
 
-// Calls with (x, y, radius) for every place that the canvas draws at; of clouds for their corners where that will do.
+// Calls with (x, y, radius) for every position on the canvas; for clouds only their corners if these suffice.
 template <class Visit>
 void each_place(Canvas const& canvas, Visit visit) {
   bool const logarithmic = canvas.x_axis().logarithmic || canvas.y_axis().logarithmic;
@@ -126,7 +126,7 @@ AxisRange logarithmic_range(Axis const& axis, Extent const& extent) {
   return {std::pow(10.0, std::max(low, -307.0)), std::pow(10.0, std::min(high, 307.0)), true};
 }
 
-/// Of all places that the axes can show.
+/// The extents of all positions that the axes can show.
 std::array<Extent, 2> extents(Canvas const& canvas) {
   bool const x_log = canvas.x_axis().logarithmic, y_log = canvas.y_axis().logarithmic;
   std::array<Extent, 2> both{Extent{.positive_only = x_log}, Extent{.positive_only = y_log}};

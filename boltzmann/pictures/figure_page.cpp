@@ -1,4 +1,4 @@
-// Drawing a canvas and what stands around it on a page.
+// Draws a canvas with its axes and texts on a page.
 #include <boltzmann/pictures/figure_page.hpp>
 #include <boltzmann/pictures/figure_paint.hpp>
 #include <boltzmann/pictures/figure_plan.hpp>
@@ -141,7 +141,7 @@ class Figure {
       painter.disc(place(point.x, point.y), length(point.size) / 2, {.fill = shown(point.colour)});
   }
 
-  // Each particle as the circle or the point that it stands for.
+  // Draws each particle as a circle or a point.
   void draw_cloud(Painter& painter, Canvas::Cloud const& cloud) const {
     auto const dimension = static_cast<std::size_t>(cloud.dimension);
     bool const sized = !cloud.diameter.empty() || cloud.common_diameter != 0;
@@ -246,7 +246,7 @@ class Figure {
   FigurePlan plan_;
 };
 
-// A space as it is seen through its projection.
+// Flattens a space by its projection.
 Canvas const& flat(Canvas const& canvas, std::optional<Canvas>& seen) {
   return canvas.projection() ? seen.emplace(flattened(canvas)) : canvas;
 }

@@ -1,4 +1,4 @@
-// Discs by exact coverage, everything else by Cairo paths.
+// Draws discs with exact coverage, everything else as Cairo paths.
 #include <boltzmann/pictures/figure_paint.hpp>
 
 #include <algorithm>
@@ -9,8 +9,7 @@
 namespace boltzmann {
 namespace {
 
-// The part of a segment within `reach` of the box, so that far coordinates never reach Cairo, whose numbers end at some
-// millions.
+// Clips a segment to within `reach` of the box, because Cairo's coordinates are limited to some millions.
 bool clip_segment(DevicePoint& a, DevicePoint& b, DeviceBox const& box, double reach) {
   double first = 0, last = 1;
   double const dx = b.x - a.x, dy = b.y - a.y;
@@ -55,7 +54,7 @@ std::vector<DevicePoint> reduced(std::vector<DevicePoint> const& nodes) {
   return kept;
 }
 
-// Spheres: light falls from the upper left. The light's place and the reach of its gradient, in radii.
+// Spheres: light comes from the upper left. Position of the light and extent of its gradient, in radii.
 constexpr double light_at = 0.34, light_reach = 1.42;
 
 struct SphereTones {
@@ -136,8 +135,8 @@ void Painter::disc_on_pixels(DevicePoint centre, double radius, DiscStyle const&
   begin_pixels();
   unsigned char* const data = cairo_image_surface_get_data(surface_);
   int const stride = cairo_image_surface_get_stride(surface_);
-  // Coverage falls from 1 to 0 over one pixel at the rim, which adds pi / 12 to the area: the radius is less by as
-  // much. Discs smaller than a pixel are faint ones of the smallest size.
+  // Coverage decreases from 1 to 0 over one pixel at the rim, which adds pi / 12 to the area; the radius is reduced to
+  // compensate. Discs smaller than a pixel are drawn as faint discs of the smallest size.
   constexpr double smallest = 0.65;
   double const strength = radius < smallest ? radius * radius / (smallest * smallest) : 1;
   radius = std::max(radius, smallest);
@@ -184,7 +183,7 @@ void Painter::disc_on_pixels(DevicePoint centre, double radius, DiscStyle const&
 
 void Painter::disc_on_paths(DevicePoint centre, double radius, DiscStyle const& style) {
   bool const plain = !style.hollow && !style.shaded && style.rim_width <= 0;
-  if (plain && style.fill.alpha >= 1 && radius < 6) {  // a dot of a round pen: many of them make one short path
+  if (plain && style.fill.alpha >= 1 && radius < 6) {  // a dot of a round pen: many dots make one short path
     pen(2 * radius, style.fill);
     cairo_move_to(cairo_, centre.x, centre.y);
     cairo_line_to(cairo_, centre.x, centre.y);
@@ -268,7 +267,7 @@ void Painter::curve(std::vector<DevicePoint> const& nodes, double width, Colour 
     if (!clip_segment(a, b, clip_, width + 2000)) continue;
     bool const joined = a.x == pen_at.x && a.y == pen_at.y;
     if (joined && dash <= 0 && colour.alpha >= 1 &&
-        ++segments >= 300) {  // long paths take Cairo long; opaque ones may be cut
+        ++segments >= 300) {  // long paths are slow in Cairo; opaque ones may be cut
       cairo_stroke(cairo_);
       cairo_move_to(cairo_, a.x, a.y);
       segments = 0;

@@ -1,4 +1,4 @@
-// Laying a canvas out on paper: margins, ticks, titles, legend and colour bars.
+// Layout of a canvas on paper: margins, ticks, titles, legend and colour bars.
 #include <boltzmann/pictures/figure_plan.hpp>
 
 #include <fmt/format.h>
@@ -14,7 +14,7 @@ namespace size {
 constexpr double outer = 20, tick_text = 20, axis_title = 22, legend = 20;
 constexpr double tick = 7, minor_tick = 4, tick_gap = 6, title_gap = 12, frame_line = 1.3, grid_line = 1;
 constexpr double bar_gap = 28, bar = 22, legend_row = 31, note_row = 23;
-constexpr double heading_row = 1.4;  // of its font
+constexpr double heading_row = 1.4;  // in units of its font
 }  // namespace size
 
 std::string axis_title(std::string const& label, std::string const& unit) {
@@ -72,7 +72,7 @@ class Planner {
 
  private:
   double length(double pixels) const { return pixels * paper_.unit; }
-  // On pixels, thin straight lines stand on whole pixels.
+  // On raster surfaces, thin straight lines have a width of whole pixels.
   double line_width(double pixels) const {
     return paper_.whole_pixels ? std::max(1.0, std::round(length(pixels))) : length(pixels);
   }
@@ -102,7 +102,7 @@ class Planner {
     return wide > most ? Font{font.size * most / wide} : font;
   }
 
-  // The most ticks whose labels don't touch.
+  // The largest number of ticks whose labels don't overlap.
   Ticks ticks_that_fit(AxisRange const& range, double extent, bool across, int at_most_exponent = 400) const {
     for (int most = 8;; --most) {
       Ticks ticks =
@@ -123,7 +123,7 @@ class Planner {
     }
   }
 
-  // The ticks of both axes. With equal units, both count in the same power of ten.
+  // The ticks of both axes. With equal scales, both use the same power of ten.
   void choose_ticks(bool equal) {
     x_ticks_ = y_ticks_ = {};
     if (!canvas_.frame()) return;
@@ -135,7 +135,7 @@ class Planner {
     y_ticks_ = ticks_that_fit(y_, box_.height, false, exponent);
   }
 
-  // Margins depend on tick labels, these on the frame, this on the margins: three rounds settle it.
+  // Margins depend on tick labels, these on the frame, and the frame on the margins. Three iterations suffice.
   void plan() {
     double const outer = length(size::outer);
     Axis const &x_axis = canvas_.x_axis(), &y_axis = canvas_.y_axis();
@@ -163,7 +163,7 @@ class Planner {
     }
   }
 
-  // Of the numbers below the frame the last may stand out; colour bars have their place beside it.
+  // The right margin: the last number below the frame may extend beyond it; colour bars are placed beside it.
   double plan_right(double outer) {
     double right = outer;
     if (!x_ticks_.labels.empty()) {
@@ -195,7 +195,7 @@ class Planner {
     return std::max(0.8 * outer + heading_block(), any_multiplier ? length(2.3 * size::tick_text) : outer);
   }
 
-  // The frame in the room that is left; with equal units in its middle.
+  // The frame in the remaining space; centred if the scales are equal.
   void fit_box(DeviceBox const& room, bool equal) {
     box_ = room;
     if (equal) {
@@ -208,7 +208,7 @@ class Planner {
     box_ = {whole(box_.left), whole(box_.top), whole(box_.width), whole(box_.height)};
   }
 
-  // With equal units, a system much longer than high would be a thread: it gets empty room across.
+  // With equal scales, a system much longer than high would be too thin: it is padded.
   void widen_thin_ranges() {
     constexpr double thinnest = 0.12;
     auto widen = [](AxisRange& range, double to) {
@@ -234,7 +234,7 @@ class Planner {
     return plan.width;
   }
 
-  // Calls with each key, how far from the left it stands, and in which row.
+  // Calls with each key, its distance from the left, and its row.
   template <class Visit>
   void each_key(Visit visit) const {
     double at = 0;
@@ -263,7 +263,7 @@ class Planner {
            static_cast<double>(key_rows_) * length(size::legend_row) + heading_gap_;
   }
 
-  // The height of what stands below the frame.
+  // The height of the elements below the frame.
   double plan_below(double left, double right) {
     notes_.clear();
     double const wide = std::max(canvas_.frame() ? paper_.width - std::max(left, box_.left) - length(size::outer)
@@ -292,7 +292,7 @@ class Planner {
   double x_at(double value) const { return box_.left + x_.place(value) * box_.width; }
   double y_at(double value) const { return box_.bottom() - y_.place(value) * box_.height; }
 
-  // Calls with the value at each mark of an axis and how long the mark is.
+  // Calls with the value at each mark of an axis and the length of the mark.
   template <class Visit>
   void each_mark(Ticks const& ticks, Visit visit) const {
     for (double const value : ticks.major) visit(value, length(size::tick));

@@ -1,4 +1,4 @@
-// Measuring and drawing marked-up text by Cairo's font functions.
+// Measures and draws marked-up text with Cairo's font functions.
 #include <boltzmann/pictures/figure_text.hpp>
 
 #include <algorithm>
@@ -57,7 +57,7 @@ std::vector<TextPart> text_parts(std::string_view markup) {
   return parts;
 }
 
-// Raised and lowered text is smaller.
+// Selects the font; raised and lowered text is smaller.
 void TextPen::choose(Font font, int level) const {
   cairo_select_font_face(cairo_, "sans-serif", CAIRO_FONT_SLANT_NORMAL,
                          font.bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);

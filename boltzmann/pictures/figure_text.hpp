@@ -17,14 +17,13 @@ struct TextPart {
   int level = 0;
 };
 
-/// Splits at ^{...} and _{...}. What is not UTF-8 or not printable becomes '?'.
+/// Splits at ^{...} and _{...}. Characters that are not UTF-8 or not printable become '?'.
 std::vector<TextPart> text_parts(std::string_view markup);
 
 /// Draws and measures in the sans-serif font.
 class TextPen {
  public:
-  /// As outlines, letters stand exactly where they should (pixels); as text, they can be selected and searched (vector
-  /// files).
+  /// With outlines, letters are placed exactly (raster); as text, they can be selected and searched (vector files).
   TextPen(cairo_t* cairo, bool outlines) : cairo_(cairo), outlines_(outlines) {}
 
   double width(std::string_view markup, Font font) const;

@@ -1,4 +1,4 @@
-// Rows to clouds, a few hundred particles at a time: they are still in the nearest cache when the next number is read.
+// Converts rows to clouds in blocks of a few hundred particles, which stay in the first-level cache between numbers.
 #include <boltzmann/core/pack.hpp>
 #include <boltzmann/core/threads.hpp>
 #include <boltzmann/diagnoses/derived.hpp>
@@ -16,7 +16,7 @@ constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t block = 256, grain = 64 * block;
 
-// The component that a name ends in, "x" or "xy" (of a tensor); -1 if the field has no such one.
+// The index of the component at the end of a name, "x" or "xy" (of a tensor); -1 if the field has no such component.
 int component(Field const& field, std::string_view letters, int dimension) {
   auto const axis = [&](char letter) { return letter >= 'x' && letter <= 'z' ? letter - 'x' : 99; };
   bool const tensor = dimension > 1 && field.components == dimension * dimension;
@@ -27,7 +27,7 @@ int component(Field const& field, std::string_view letters, int dimension) {
   return there ? index : -1;
 }
 
-// Calls f(k, value of particle index(k), or the square of its length) for k from 0 to count.
+// Calls f(k, value of particle index(k), or its squared length) for k from 0 to count.
 template <class Index, class Function>
 void each_square(ParticleColumn const& column, std::size_t count, Index index, Function f) {
   double const* const first = column.first;
@@ -60,13 +60,13 @@ Four four(float const* from) {
   return pack;
 }
 
-// The smallest and the largest of values; what is not finite counts as nothing.
+// The smallest and the largest of values; values that are not finite are ignored.
 struct CloudLimits {
   double low = infinity, high = -infinity;
   void add(double v) {
     if (std::isfinite(v)) take(v);
   }
-  // Quicker, but infinities count.
+  // Faster, but includes infinities.
   void take(double v) {
     low = v < low ? v : low;
     high = v > high ? v : high;
@@ -95,7 +95,7 @@ CloudLimits limits_of(float const* values, std::size_t count, std::size_t& missi
     limits.take(static_cast<double>(high[lane]));
     missing += static_cast<std::size_t>(not_numbers[lane]);
   }
-  if (k < 4) limits = {};  // those are of no numbers
+  if (k < 4) limits = {};  // the limits are not those of numbers
   for (; k < count; ++k) {
     limits.take(static_cast<double>(values[k]));
     missing += values[k] != values[k];
@@ -103,7 +103,7 @@ CloudLimits limits_of(float const* values, std::size_t count, std::size_t& missi
   return limits;
 }
 
-// How many of the particles with so many coordinates each have one that is not finite.
+// The number of particles, with this number of coordinates each, that have one that is not finite.
 std::size_t nowhere(float const* places, std::size_t particles, std::size_t dimension) {
   Four sum(0.0F);
   float rest = 0;
@@ -121,12 +121,12 @@ std::size_t nowhere(float const* places, std::size_t particles, std::size_t dime
   return count;
 }
 
-// What one range of particles has to tell.
+// Results for one range of particles.
 struct Told {
   CloudLimits value;
-  double largest = 0;  // of sizes
+  double largest = 0;  // largest size
   std::size_t not_finite = 0, without_value = 0;
-  std::vector<std::uint32_t> inside = {};  // the region
+  std::vector<std::uint32_t> inside = {};  // particles in the region
 };
 
 Told sum(std::vector<Told> const& parts) {
@@ -151,19 +151,19 @@ Told in_ranges(std::size_t count, int threads, Function f) {
   return sum(parts);
 }
 
-// How values become numbers of a cloud: (value - zero) * factor, or the square of a length.
+// The conversion of values to numbers of a cloud: (value - zero) * factor, or a squared length.
 struct Scale {
   double zero = 0, factor = 1;
   bool squares = false;
 };
 
-// Where the numbers of some particles go.
+// The destination of the numbers of some particles.
 struct Block {
   float *place, *value, *diameter;
 };
 
-// The one that is shown of the k-th `stride` of so many particles: by a hash, the same in every picture, so that what
-// is shown is a fair sample whatever the order in which particles were loaded (a lattice, a quiet start).
+// The particle shown of the k-th `stride` particles. A hash selects it, the same in every picture, so that the
+// particles shown are a fair sample, independent of the loading order (a lattice, a quiet start).
 std::size_t one_of(std::size_t k, std::size_t stride, std::size_t count) {
   std::uint64_t hash = (k + 1) * 0x9E3779B97F4A7C15U;
   hash = (hash ^ hash >> 32U) * 0xD6E8FEB86659FD93U;
@@ -185,7 +185,7 @@ class CloudMaker {
     for (auto const& source : sources_) result_.particles += source.ensemble->size();
     result_.inside = result_.particles;
     bool const all = options_.region.empty() && (options_.most == 0 || result_.particles <= options_.most);
-    // Usually one look at each particle is enough: values become colours when the last one is known.
+    // Usually one pass over the particles suffices: values become colours once the last one is known.
     if (all && valued_ && !sized_ && draw_before_looking()) return std::move(result_);
     if (!options_.region.empty() || valued_ || sized_) look();
     choose_stride();
@@ -197,8 +197,8 @@ class CloudMaker {
   }
 
  private:
-  // Finds who is inside; the limits of values and sizes are those of all particles, so that colours don't change with
-  // what is shown.
+  // Finds the particles in the region. The limits of values and sizes are those of all particles, so that colours don't
+  // depend on the region.
   void look() {
     if (!options_.region.empty()) result_.inside = 0;
     for (auto const& source : sources_) {
@@ -278,8 +278,8 @@ class CloudMaker {
     if (std::isfinite(options_.high)) result_.high = options_.high;
   }
 
-  // Draws differences from one of the values (or squares of lengths), and makes colours of these. Returns whether
-  // single precision was enough for that.
+  // Stores differences from one of the values (or squared lengths), and converts these to colours. Returns true if
+  // single precision was sufficient for that.
   bool draw_before_looking() {
     Scale scale{options_.low};
     bool first = true;
@@ -369,7 +369,7 @@ class CloudMaker {
                      told);
       });
     }
-    // Each number goes to memory only once, which would be set to zero otherwise.
+    // Avoid initialisation, so that each number is written to memory only once.
     cloud.position.clear(), cloud.value.clear(), cloud.diameter.clear();
     Told told;
     std::array<float, 3 * block> place;
@@ -387,7 +387,7 @@ class CloudMaker {
     return told;
   }
 
-  // The particles at, at + 1, ... of a cloud.
+  // Converts the particles at, at + 1, ... of a cloud.
   void draw_block(CloudSource const& source, Canvas::Cloud const& cloud, std::size_t at, std::size_t count,
                   Scale const& scale, Block const& out, Told& told) const {
     if (cloud.number.empty()) {
@@ -415,7 +415,7 @@ class CloudMaker {
       for (std::size_t k = 0; k < count; ++k) out.diameter[k] = diameter(source, index(k));
   }
 
-  // Two coordinates that stand side by side.
+  // Converts two adjacent coordinates.
   template <class Index>
   void draw_pairs(ParticleColumn const& column, std::size_t count, Index index, float* out) const {
     using Two = Pack<double, 2>;
@@ -467,13 +467,13 @@ class CloudMaker {
     return static_cast<float>(own ? source.diameter : source.diameter * std::min(std::abs(v) / largest_, 1.0));
   }
 
-  // What was drawn becomes a place between the ends, 0 to 1 (the middle where both are the same): root or not, less
-  // `low`, times `factor`.
+  // Converts stored values to positions between the ends, 0 to 1 (the middle if both are equal): (value or its root,
+  // minus `low`) times `factor`.
   void finish_values(bool root, double low, double factor) {
     Four const from(static_cast<float>(low)), times(static_cast<float>(factor)), nothing(0.0F), all(1.0F);
     auto const between = [=](Four v) {
       v = (v - from) * times;
-      // A NaN stays one: the comparisons are false for it.
+      // NaN stays NaN, because the comparisons are false.
       return select(v > all, all, select(v < nothing, nothing, v));
     };
     if (!(result_.high > result_.low))
@@ -504,7 +504,7 @@ class CloudMaker {
   std::size_t dimension_;
   bool valued_ = false, sized_ = false;
   std::array<double, 3> per_scale_;
-  std::vector<std::vector<std::uint32_t>> inside_;  // of each source: the particles in the region
+  std::vector<std::vector<std::uint32_t>> inside_;  // per source: the particles in the region
   CloudLimits limits_, drawn_;
   double largest_ = 0;
   ParticleClouds result_;
@@ -527,7 +527,7 @@ ParticleColumn column_of(AnyEnsemble const& ensemble, std::string_view name, std
     if (Field const* field = ensemble.find_field(name.substr(0, dot))) {
       int const at = dot != std::string_view::npos ? component(*field, name.substr(dot + 1), ensemble.dimension())
                                                    : (field->components == 1 ? 0 : -1);
-      // A scalar other than position and velocity (of one dimension) has no components.
+      // A scalar other than position and velocity (in one dimension) has no components.
       bool const along_axes = field->components > 1 || field->name == "position" || field->name == "velocity";
       if (at >= 0 && (dot == std::string_view::npos || along_axes))
         return {ensemble.row(0) + field->offset + at, ensemble.stride()};

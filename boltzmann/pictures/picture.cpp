@@ -1,4 +1,4 @@
-// Which drawing is meant, and whether it can be drawn.
+// Selects the drawing of a picture, and checks that it can be drawn.
 #include <boltzmann/diagnoses/measures.hpp>
 #include <boltzmann/files/text_file.hpp>
 #include <boltzmann/pictures/figure.hpp>

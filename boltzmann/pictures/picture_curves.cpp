@@ -1,4 +1,5 @@
-// Functions that diagnoses have gathered over a run, radial distributions and the like: from the run, or from its files.
+// Functions that diagnoses have accumulated over a run (radial distributions and similar), from the run or from its
+// files.
 #include <boltzmann/files/csv.hpp>
 #include <boltzmann/files/text_file.hpp>
 #include <boltzmann/pictures/draw_arrays.hpp>
@@ -12,7 +13,7 @@
 namespace boltzmann::pictures {
 namespace {
 
-/// "radial-distribution: coordination number": of a table, one of its columns, or the second where none is named.
+/// "radial-distribution: coordination number": a column of a table; default: the second column.
 struct Wanted {
   std::string table, column;
 };
@@ -72,7 +73,7 @@ Curve curve_of_run(Scene const& scene, Wanted const& wanted, std::vector<Gathere
   return curve;
 }
 
-/// Of a stored run. Nothing if it has no such file (yet).
+/// Reads a curve of a stored run. Nothing if it has no such file (yet).
 Curve curve_of_file(Scene const& scene, Wanted const& wanted, std::vector<GatheredTable> const& all) {
   std::string const name = all.empty() ? wanted.table : table_named(all, wanted.table).name;
   std::string const path = scene.context.folder + "/" + name + ".csv";
@@ -91,7 +92,7 @@ Curve curve_of_file(Scene const& scene, Wanted const& wanted, std::vector<Gather
 
 void check_curves(Question const& question) {
   auto const& sources = question.sources.diagnoses;
-  if (sources.empty() && !question.columns.empty()) return;  // a stored run, of which only files are known
+  if (sources.empty() && !question.columns.empty()) return;  // for a stored run, only files are known
   question.on("y", [&] {
     auto const all = gathered(sources);
     Dimension first{};

@@ -1,4 +1,4 @@
-// The flow of vortices: vorticity, velocity and Q in colours, on slices in 3D; streamlines in 2D.
+// The flow of vortices: vorticity, velocity and Q as colours, on slices in 3D; streamlines in 2D.
 #include <boltzmann/diagnoses/smooth_field.hpp>
 #include <boltzmann/diagnoses/vortex_measures.hpp>
 #include <boltzmann/pictures/draw_arrays.hpp>
@@ -29,7 +29,7 @@ Dimension dimension_of_name(std::string const& name) {
   return name.starts_with("vorticity") ? frequency : velocity;
 }
 
-/// Of what VortexFlow has at a place.
+/// Extracts a quantity from VortexFlow's values at a place.
 double value_of_flow(std::string const& name, int dimension, double const* flow) {
   if (name == "speed") return std::hypot(flow[0], flow[1], dimension == 3 ? flow[2] : 0);
   if (name.starts_with("velocity")) return flow[name.back() - 'x'];
@@ -43,7 +43,7 @@ void draw_streamlines(Canvas& canvas, MeshGrid const& grid, Values const& u, Val
                       bool alone) {
   for (auto const& line : streamlines(grid, u, v, separation)) {
     canvas.curve(line.x, line.y, with_alpha(ink, alone ? 1 : 0.6), "", 1.5F);
-    // An arrow half way says where to.
+    // An arrow in the middle shows the direction.
     std::size_t const half = line.x.size() / 2;
     std::size_t ahead = half;
     while (ahead + 1 < line.x.size() &&
@@ -91,7 +91,7 @@ std::optional<Dimension> dimension_of_flow(Question const& question) {
 Canvas draw_flow(Scene& scene) {
   auto const D = static_cast<std::size_t>(scene.box().dimension());
   auto const& schemes = scene.context.simulation.schemes();
-  scene.need("influence");  // what bodies do is found with the influences
+  scene.need("influence");  // the effect of bodies is computed with the influences
   VortexFlow const flow(vortex_sources(schemes), scene.box(), scene.threads());
   std::string const name = flow_name(scene.picture);
   auto const shown = scene.shown_box(scene.open_reach());

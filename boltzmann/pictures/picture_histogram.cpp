@@ -1,4 +1,4 @@
-// How often a quantity of the particles has which value.
+// The distribution of a quantity of the particles.
 #include <boltzmann/pictures/draw_arrays.hpp>
 #include <boltzmann/pictures/picture_scene.hpp>
 

@@ -1,4 +1,4 @@
-// What a mesh has on its nodes.
+// Fields on the nodes of a mesh.
 #include <boltzmann/diagnoses/field_measures.hpp>
 #include <boltzmann/pictures/draw_arrays.hpp>
 #include <boltzmann/pictures/picture_scene.hpp>
@@ -13,7 +13,7 @@ namespace {
 
 std::string mesh_name(Picture const& picture) { return picture.y.empty() ? "potential" : picture.y; }
 
-// An axis of a mesh: its nodes are the middles of the cells of a picture.
+// An axis of a mesh: its nodes are the centres of the cells of a picture.
 Axis mesh_axis(Scene const& scene, MeshGrid const& grid, int a) {
   Axis result = scene.axis(std::string(1, "xyz"[a]), dimensions::length);
   result.low = grid.position(a, 0) - 0.5 * grid.spacing[a];

@@ -1,4 +1,4 @@
-// The members of a picture with their keys, and which of them each drawing has.
+// The members of a picture with their keys, and the members that each drawing uses.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/once.hpp>
 #include <boltzmann/laws/weight.hpp>
@@ -31,7 +31,7 @@ OptionPlace curves_of(Picture& picture) {
 
 OptionPlace weight_of(Picture& picture) { return named_value(&picture.smoothing.shape, weight_words()); }
 
-/// What drawings choose from.
+/// The members from which drawings choose.
 OptionTable make_members() {
   OptionTable all;
   all.add("file", &Picture::file, text(), "in the run's folder; .png, .svg or .pdf");
@@ -83,8 +83,8 @@ OptionTable make_members() {
 
 OptionTable const& members() { return once<make_members>(); }
 
-/// A further drawing is an entry here with its three functions, which picture_scene.hpp declares and a source of its
-/// own (picture_....cpp) has.
+/// To add a drawing, add an entry here with its three functions; declare them in picture_scene.hpp and define them in a
+/// source file of its own (picture_....cpp).
 std::vector<Drawing> make_drawings() {  // long: a table, an entry for each drawing
   std::vector<OptionKey> const style{{"colour"}, {"size"}};
   std::vector<OptionKey> const ends{{"low"}, {"high"}};

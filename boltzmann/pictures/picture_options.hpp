@@ -1,5 +1,5 @@
-// What a user may say of a picture, drawing by drawing: the table that scenarios, `bzm render`, pages, run files and
-// the guide have it from.
+// The options of a picture, drawing by drawing. This table is used by scenarios, `bzm render`, pages, run files and the
+// guide.
 #pragma once
 
 #include <boltzmann/core/options.hpp>
@@ -12,7 +12,7 @@
 
 namespace boltzmann {
 
-/// All members of a Picture but its palette, which is that of a window.
+/// All members of a Picture except its palette, which belongs to the window.
 OptionTable const& picture_options();
 
 namespace pictures {
@@ -20,16 +20,17 @@ class Scene;
 struct Question;
 }  // namespace pictures
 
-/// A kind of picture: what can be said of it besides `drawing` and `file`, and who draws it.
+/// A kind of picture: its options besides `drawing` and `file`, and its functions.
 struct Drawing {
   std::string name, doc;
   OptionTable options;
   Canvas (*draw)(pictures::Scene& scene);
   void (*check)(pictures::Question const& question);
-  std::optional<Dimension> (*dimension)(pictures::Question const& question);  ///< of what is shown; null: a pure number
+  std::optional<Dimension> (*dimension)(pictures::Question const& question);  ///< of the values shown; null: a pure
+                                                                              ///< number
 };
 std::vector<Drawing> const& drawings();
-/// Error for a name that there is not, with the nearest.
+/// Throws Error for an unknown name, with the most similar one.
 Drawing const& drawing_named(std::string_view name);
 
 }  // namespace boltzmann

@@ -18,8 +18,8 @@ constexpr std::size_t max_arrows = 2000;
 
 std::string coordinate(int axis) { return std::string("position.") + "xyz"[axis]; }
 
-// The diameter of each ensemble's particles: what it was given, else the largest of the others, else one that fits
-// between the particles.
+// The diameter of each ensemble's particles: the given one, else the largest of the others, else one that fits between
+// the particles.
 std::vector<double> diameters(Scene const& scene) {
   double common = 0;
   std::size_t count = 0;
@@ -66,7 +66,7 @@ ParticleClouds clouds_of(Scene& scene) {
   return clouds;
 }
 
-/// Leaves a cloud without particles: what is drawn of them are lines.
+/// Removes the particles of a cloud: only lines are drawn.
 void hide(Canvas::Cloud& cloud) {
   cloud.position.clear(), cloud.value.clear(), cloud.diameter.clear(), cloud.number.clear();
 }
@@ -103,7 +103,7 @@ bool has_bonds(Scene const& scene) {
   });
 }
 
-// A vector of particles: an influence, or a field. Null if the class has no such one.
+// A vector of particles: an influence, or a field. Null if the class has none of that name.
 struct VectorColumn {
   double const* first = nullptr;
   std::size_t stride = 0;
@@ -121,7 +121,7 @@ VectorColumn vector_of(AnyEnsemble const& ensemble, std::string const& name) {
   return {};
 }
 
-// Arrows at particles that are drawn.
+// Draws arrows at the drawn particles.
 void draw_vectors(Canvas& canvas, Scene& scene, std::vector<std::array<double, 2>> const& shown) {
   std::string const& name = scene.picture.vectors;
   int const D = scene.box().dimension();
@@ -152,20 +152,20 @@ void draw_vectors(Canvas& canvas, Scene& scene, std::vector<std::array<double, 2
       side = {std::max(side[0], scene.picture.region[a][0]), std::min(side[1], scene.picture.region[a][1])};
     volume *= std::max(side[1] - side[0], 0.0);
   }
-  // Of fewer arrows than particles, longer ones.
+  // Fewer arrows than particles are longer.
   double const distance = std::pow(volume / static_cast<double>(arrows.size()), 1.0 / D);
   auto const unit = scene.shown_in(meaning(scene.ensembles, name + ".x").dimension);
   draw_arrows(canvas, arrows, distance, unit.factor, unit.unit);
   if (every > 1) canvas.note(fmt::format("1 of {} particles has an arrow", every));
 }
 
-// The way of one particle through all frames.
+// The path of one particle through all frames.
 struct Track {
   std::size_t ensemble, particle;
   std::array<Values, 3> position;
 };
 
-// A particle that goes through a periodic wall leaves a gap in its track.
+// A particle that crosses a periodic wall leaves a gap in its track.
 void extend(Track& track, double const* place, Box const& box) {
   int const D = box.dimension();
   bool jump = false;
@@ -178,7 +178,7 @@ void extend(Track& track, double const* place, Box const& box) {
   }
 }
 
-// Whether somebody goes so fast that nobody knows through which walls in a time.
+// True if a particle is so fast that its wall crossings between frames are ambiguous.
 bool is_lost(std::vector<double> const& velocities, double time, Box const& box) {
   auto const D = static_cast<std::size_t>(box.dimension());
   for (std::size_t k = 0; k < velocities.size(); ++k)
@@ -211,7 +211,7 @@ std::vector<Track> read_tracks(Scene const& scene, bool& lost) {
   return all;
 }
 
-// Where particles and their tracks are, on open axes.
+// The extent of particles and their tracks, on open axes.
 Sides reach_of(Scene const& scene, std::vector<Track> const& tracks) {
   Sides reach = scene.open_reach();
   for (auto const& track : tracks)
@@ -262,7 +262,7 @@ CartesianStyle style_of(Scene const& scene, ShownBox const& shown) {
   return style;
 }
 
-/// A plane shows a little more than what is to be seen on it.
+/// A plane shows a small margin around the particles.
 Canvas start_canvas(CartesianStyle const& style, Scene const& scene, ShownBox const& shown) {
   if (scene.box().dimension() == 3) return start_cartesian(style, &scene.picture.projection);
   Canvas canvas = start_cartesian(style, nullptr);
@@ -312,7 +312,7 @@ Canvas draw_particles(Scene& scene) {
 
   CartesianStyle const style = style_of(scene, shown);
   Canvas canvas = start_canvas(style, scene, shown);
-  bool const with_bonds = clouds.stride == 1;  // else most of their ends would not be seen
+  bool const with_bonds = clouds.stride == 1;  // otherwise most connected particles would not be drawn
   if (with_bonds) draw_bonds(canvas, scene, style);
   if (scene.picture.colour.empty())
     explain_colours(canvas, style, 0, 0, false);

@@ -1,4 +1,4 @@
-// Two quantities of every particle, one over the other; and their way through all frames.
+// Two quantities of every particle, one over the other, and their path through all frames.
 #include <boltzmann/files/trajectory.hpp>
 #include <boltzmann/pictures/draw_arrays.hpp>
 #include <boltzmann/pictures/picture_scene.hpp>
@@ -9,7 +9,7 @@
 namespace boltzmann::pictures {
 namespace {
 
-// The axis of space that a quantity is a place on; -1 for all others.
+// The axis of space whose coordinate a quantity is; -1 for all others.
 int axis_of(Scene const& scene, std::string const& name) {
   if (!name.starts_with("position")) return -1;
   int const axis = name == "position" ? 0 : name.back() - 'x';
@@ -21,7 +21,7 @@ bool through_wall(Scene const& scene, std::string const& name, double way) {
   return axis >= 0 && scene.box().periodic(axis) && std::abs(way) > scene.box().length(axis) / 2;
 }
 
-// Two quantities of every particle through all frames. The ensembles show one frame after the other meanwhile.
+// Two quantities of every particle through all frames. The frames are loaded into the ensembles one after the other.
 void draw_tracks(Canvas& canvas, Scene& scene, std::string const& x, std::string const& y) {
   TrajectoryReader const reader(scene.context.folder + "/trajectory.h5");
   scene.keep_particles();
@@ -52,8 +52,8 @@ void draw_tracks(Canvas& canvas, Scene& scene, std::string const& x, std::string
       canvas.curve(tracks[e][i][0], tracks[e][i][1], scene.track_colour(e, i), "", 1.4F);
 }
 
-// From which number on places are stored, so that single precision is enough: the low end of the box, or the value of
-// somebody.
+// The origin of stored positions, chosen so that single precision suffices: the low end of the box, or the value of a
+// particle.
 double origin_of(Scene const& scene, std::string const& name, std::vector<CloudSource> const& sources,
                  std::size_t place) {
   if (int const axis = axis_of(scene, name); axis >= 0) return scene.box().low(axis);
@@ -63,7 +63,7 @@ double origin_of(Scene const& scene, std::string const& name, std::vector<CloudS
   return 0;
 }
 
-// The largest particle is as wide as this part of the axis, where sizes show a quantity.
+// If sizes show a quantity, the diameter of the largest particle as a fraction of the axis.
 constexpr double largest_part = 0.018;
 
 double extent_of(std::vector<CloudSource> const& sources, Axis const& axis) {
@@ -76,7 +76,7 @@ double extent_of(std::vector<CloudSource> const& sources, Axis const& axis) {
   return high > low ? high - low : 1;
 }
 
-/// The ends of an axis are those of the region.
+/// Sets the ends of an axis to those of the region.
 void zoom(Axis& axis, std::vector<std::array<double, 2>> const& region, std::size_t number) {
   if (number >= region.size()) return;
   if (std::isfinite(region[number][0])) axis.low = region[number][0];
@@ -106,7 +106,7 @@ Canvas draw_phase_space(Scene& scene, std::string x, std::string y) {
   zoom(x_axis, scene.picture.region, 0);
   zoom(y_axis, scene.picture.region, 1);
   auto vx = scene.columns(x), vy = scene.columns(y);
-  // In one dimension the colour of particles in space is their second axis.
+  // In one dimension, the colour of particles in space is their second axis.
   bool const in_space = scene.picture.drawing == "cartesian";
   std::string const colour = in_space ? "" : scene.picture.colour, size = in_space ? "" : scene.picture.size;
   std::vector<ParticleColumn> values, sizes;

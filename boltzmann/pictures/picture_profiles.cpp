@@ -61,7 +61,7 @@ Canvas draw_profiles(Scene& scene) {
   bool const one = meanings.size() == 1;
   bool const same = std::all_of(meanings.begin(), meanings.end(),
                                 [&](auto const& m) { return m.dimension == meanings[0].dimension; });
-  // Of different dimensions each in its own unit.
+  // Quantities of different dimensions have separate units.
   std::vector<Values> values;
   std::vector<Series> series;
   for (auto const& what : meanings) {

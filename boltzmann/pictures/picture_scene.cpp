@@ -1,4 +1,4 @@
-// Names to numbers, for pictures; and leaving the simulation as it was.
+// Evaluates quantities by name, for pictures, and restores the simulation afterwards.
 #include <boltzmann/pictures/drawing_cartesian.hpp>
 #include <boltzmann/pictures/picture_scene.hpp>
 
@@ -109,7 +109,7 @@ std::vector<ParticleColumn> Scene::columns(std::string const& name) {
   return all;
 }
 
-// Classes without a velocity have their influence for it, and an integrator leaves that of an intermediate stage.
+// Classes without a velocity use their influence as such, and an integrator leaves that of an intermediate stage.
 void Scene::need(std::string const& name) {
   auto const reads = [&](char const* what) { return name.find(what) != std::string::npos; };
   bool const motion = reads("speed") || reads("velocity") || reads("kinetic");
@@ -179,7 +179,7 @@ std::array<std::array<double, 2>, 3> Scene::open_reach() const {
       high = row[a] > high ? row[a] : high;
     }
   };
-  for (bool const finite_only : {false, true}) {  // quickly, and once more if somebody is infinitely far
+  for (bool const finite_only : {false, true}) {  // first the fast method; repeat if a position is infinite
     reach.fill({infinity, -infinity});
     for (auto const* ensemble : ensembles)
       for (std::size_t i = 0; i < ensemble->size(); ++i) take(ensemble->row(i), finite_only);

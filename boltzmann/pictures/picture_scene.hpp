@@ -1,5 +1,5 @@
-// What all pictures of a simulation are drawn from: its particles by name, units, colours and the part of space that
-// they show. Private to the picture sources, one for each kind of drawing.
+// The data common to all pictures of a simulation: its particles by name, units, colours and the displayed part of
+// space. Private to the picture sources, one for each kind of drawing.
 #pragma once
 
 #include <boltzmann/diagnoses/derived.hpp>
@@ -19,7 +19,7 @@ constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
 class Scene {
  public:
   Scene(Picture const& picture, PictureContext const& context);
-  /// Puts back what had to be found anew, or was kept.
+  /// Restores the state that drawing has changed.
   ~Scene();
   Scene(Scene const&) = delete;
   Scene& operator=(Scene const&) = delete;
@@ -31,42 +31,41 @@ class Scene {
   Box const& box() const;
   int threads() const;
 
-  // How things are written.
+  // The display unit of a dimension.
   UnitSystem::Display shown_in(Dimension dimension) const;
   Axis axis(std::string label, Dimension dimension) const;
   std::string title(bool with_time = true) const;
-  /// The colour that an ensemble was given, or the next of the palette.
+  /// The colour of an ensemble: its own, or the next of the palette.
   Colour colour(std::size_t ensemble) const;
-  /// Few particles get a colour each, many that of their ensemble.
+  /// If there are few particles, each has its own colour; otherwise that of its ensemble.
   Colour track_colour(std::size_t ensemble, std::size_t particle) const;
-  /// Blue and red for values of both signs. Ends that are given decide for all frames of a movie.
+  /// Blue and red for values of both signs. If ends are given, they decide for all frames of a movie.
   ColourMap fitting_map(Values const& shown) const;
-  /// A run that was stopped early is no reason to fail: the picture says why it is empty.
+  /// An empty picture with a reason, because a run that was stopped early is not an error.
   Canvas too_few(std::string const& why) const;
 
-  // Quantities by name; Error for a name that no ensemble knows.
-  /// The quantity of each ensemble that has it; NaN for the particles of the others.
+  // Quantities by name; throw Error for a name that no ensemble has.
+  /// The values of each ensemble that has the quantity; NaN for the particles of the others.
   std::vector<Values> values(std::string const& name);
-  /// The same where it stands; for the ensembles without it a column without values.
+  /// The same as columns without copies; ensembles without the quantity have a column without values.
   std::vector<ParticleColumn> columns(std::string const& name);
-  /// With those of each particle. Error if no law gives them.
+  /// Energies including those of each particle. Throws Error if no law provides them.
   EnergyAndVirial potential_energies();
-  /// Calls function(ensemble, potential energies of its particles, if those are the quantity of this name).
+  /// Calls function(ensemble, potential energies of its particles, if these are the quantity of this name).
   template <class Function>
   void each_ensemble(std::string const& name, Function function);
-  /// Finds influences for the state as it stands, if the quantity is, or follows from, one.
+  /// Calculates influences for the current state, if the quantity depends on them.
   void need(std::string const& name);
-  /// The particles have been replaced: what is needed must be found again.
+  /// The particles have been replaced: invalidates calculated quantities.
   void forget() { fresh_ = false; }
-  /// To be called before particles are replaced by others for a while. They, and what schemes remember of them, come
-  /// back at the end at the latest.
+  /// Call it before particles are replaced temporarily. The destructor restores them and the related state of schemes.
   void keep_particles();
   void put_particles_back();
 
-  /// The part of space that is shown: the box, and on open axes also what has left it, up to half a box away. `reach`
-  /// is where particles are.
+  /// The displayed part of space: the box, and on open axes also particles outside, up to half a box away. `reach` is
+  /// the extent of particles.
   std::vector<std::array<double, 2>> shown_box(std::array<std::array<double, 2>, 3> const& reach) const;
-  /// Where all particles are, on open axes (nobody asks for the others).
+  /// The extents of all particles on open axes (not needed for others).
   std::array<std::array<double, 2>, 3> open_reach() const;
 
  private:
@@ -78,24 +77,24 @@ class Scene {
   std::vector<Values> schemes_;
 };
 
-/// The grid of a picture: its first two axes are those of the picture, with so many cells along the longest side unless
-/// the picture says. Nodes are the middles of its cells, or its corners, so that lines end at the walls.
+/// The grid of a picture. Its first two axes are those of the picture, with this number of cells along the longest side
+/// unless the picture sets it. Nodes are the centres of its cells, or its corners, so that lines end at the walls.
 MeshGrid picture_grid(Scene const& scene, std::vector<std::array<double, 2>> const& shown,
                       std::array<int, 2> const& axes, bool corners, int usual_cells);
 
-/// What particle_clouds() needs to know: the picture's limits, from `origin` on.
+/// The options of particle_clouds(): the picture's limits, relative to `origin`.
 CloudOptions cloud_options(Scene const& scene);
-/// "1 of 5 particles shown", "120 of 4000 particles are in this region", values that are missing.
+/// Notes such as "1 of 5 particles shown", "120 of 4000 particles are in this region", and missing values.
 void note_shown(Canvas& canvas, ParticleClouds const& clouds, bool region);
 /// The colour bar for the values of clouds.
 void explain_values(Canvas& canvas, Scene const& scene, ParticleClouds const& clouds);
 
-/// Whether they remember where and when they were released: the fields `place` and `release` of class Dye.
+/// True if the particles store place and time of their release: the fields `place` and `release` of class Dye.
 bool is_dye(AnyEnsemble const& ensemble);
-/// Error if the picture has streaklines and no ensemble is dye, or space is a line.
+/// Throws Error if the picture has streaklines and no ensemble is dye, or space is one-dimensional.
 void check_streaklines(Picture const& picture, std::vector<AnyEnsemble*> const& ensembles);
-/// Joins the dye of each place in order of release, in the colour of its ensemble; what has no neighbour is a point.
-/// `shown` is the part of space in the picture.
+/// Connects the dye of each place in order of release, in the colour of its ensemble. A particle without a neighbour is
+/// a point. `shown` is the displayed part of space.
 void draw_streaklines(Canvas& canvas, Scene const& scene, std::vector<std::array<double, 2>> const& shown);
 
 /// "kinetic energy (eV)" -> {"kinetic energy", "eV"}.
@@ -104,15 +103,15 @@ struct Heading {
 };
 Heading heading(std::string const& text);
 
-/// The meaning of a name that at least one of the ensembles knows; Error if none does.
-/// The part of a side that a region leaves; the region itself if they have nothing in common.
+/// The meaning of a name in an ensemble that has it; throws Error if none does. The part of a side inside a region; the
+/// region itself if they don't overlap.
 std::array<double, 2> zoomed(std::array<double, 2> const& side, std::array<double, 2> const& region);
 
 QuantityMeaning meaning(std::vector<AnyEnsemble*> const& ensembles, std::string const& name,
                         UnitSystem const* units = nullptr);
 Values joined(std::vector<Values> const& parts);
 
-/// What is known before a picture is drawn, and who hears what is wrong with it.
+/// The data available before a picture is drawn, and the callback for errors.
 struct Question {
   Picture const& picture;
   std::vector<AnyEnsemble*> const& ensembles;
@@ -120,19 +119,19 @@ struct Question {
   PictureSources const& sources;
   Complain const& complain;
 
-  /// An Error of `check` is one of the option `key`. Without anybody to hear of it it is thrown.
+  /// Reports an Error of `check` as one of the option `key`. Without a callback, throws it.
   void on(char const* key, std::function<void()> const& check) const;
-  /// `name` is a quantity of particles, or empty.
+  /// Checks that `name` is a quantity of particles, or empty.
   void known(char const* key, std::string const& name) const;
-  /// The names in y are columns of diagnoses.csv.
+  /// Checks that the names in y are columns of diagnoses.csv.
   void need_columns(char const* key, std::vector<std::string> const& words) const;
   void need_slice() const;
   /// The dimension of a quantity of particles.
   std::optional<Dimension> dimension(std::string const& name) const;
 };
 
-// The drawings, what can be wrong with their options besides numbers out of range, and what low, high and levels are
-// measured in. One file each; drawings() has them by name.
+// For each drawing: its function, the check of its options besides numbers out of range, and the dimension of low, high
+// and levels. One file each; drawings() lists them by name.
 Canvas draw_particles(Scene& scene);
 void check_particles(Question const& question);
 std::optional<Dimension> dimension_of_colour(Question const& question);

@@ -51,7 +51,7 @@ SmoothColumn smooth_column(Scene& scene, SmoothField const& field, std::string c
   return field.column(name);
 }
 
-/// That of the picture; a range that fits, unless one is given or the particles have their own.
+/// The smoothing of the picture; its range is a suitable one, unless it is given or the particles have their own.
 Smoothing smoothing_of(Scene const& scene, std::vector<AnyEnsemble*> const& of) {
   Smoothing smoothing = scene.picture.smoothing;
   bool const own = std::all_of(of.begin(), of.end(), [](auto* e) { return e->find_field("range") != nullptr; });

@@ -1,4 +1,4 @@
-// Spectra of particles across space, and of waves over wave number and frequency.
+// Spectra of particles in space, and of waves over wave number and frequency.
 #include <boltzmann/diagnoses/spectrum_of.hpp>
 #include <boltzmann/diagnoses/wave_spectrum.hpp>
 #include <boltzmann/files/text_file.hpp>
@@ -13,7 +13,7 @@
 namespace boltzmann::pictures {
 namespace {
 
-// The wave spectrum of a quantity that a run records; the first one if none is named.
+// The recorded wave spectrum of a quantity; default: the first one.
 WaveSpectrum const& recorded_waves(std::vector<Diagnosis const*> const& diagnoses, std::string const& quantity) {
   std::vector<std::string> recorded;
   for (auto const* diagnosis : diagnoses)

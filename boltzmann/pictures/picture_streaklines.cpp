@@ -1,4 +1,4 @@
-// Streaklines: dye that was released at one place, joined in order of release.
+// Streaklines: dye released at one place, connected in order of release.
 #include <boltzmann/pictures/picture_scene.hpp>
 
 #include <algorithm>
@@ -19,7 +19,7 @@ Field const* number_field(AnyEnsemble const& ensemble, char const* name) {
   return field && field->components == 1 ? field : nullptr;
 }
 
-/// By places, and of one place by releases.
+/// Sorted by place, and for each place by release.
 std::vector<Released> in_order(AnyEnsemble const& ensemble) {
   std::vector<Released> all;
   int const place = number_field(ensemble, "place")->offset, release = number_field(ensemble, "release")->offset;

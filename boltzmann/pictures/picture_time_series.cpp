@@ -21,7 +21,7 @@ CsvTable table_of(Scene const& scene) {
   return table;
 }
 
-// The number of a column that diagnoses have filled.
+// The index of a column of diagnoses.
 std::size_t column_named(std::string const& word, CsvTable const& table) {
   std::vector<std::string> names;
   for (std::size_t c = 2; c < table.header.size(); ++c) names.push_back(heading(table.header[c]).name);
@@ -30,7 +30,7 @@ std::size_t column_named(std::string const& word, CsvTable const& table) {
   return 2 + static_cast<std::size_t>(found - names.begin());
 }
 
-// The columns of a table that were asked for; none: all of the unit of the first one.
+// The selected columns of a table; default: all with the unit of the first one.
 std::vector<std::size_t> chosen(Scene const& scene, CsvTable const& table) {
   std::vector<std::size_t> columns;
   for (auto const& word : split_words(scene.picture.y, ',')) columns.push_back(column_named(word, table));
@@ -67,7 +67,7 @@ Canvas draw_time_series(Scene& scene) {
   std::string const label = columns.size() == 1 ? heading(data.header[columns[0]]).name : "";
   Axis y{label, same ? common : ""};
   y.logarithmic = scene.picture.logarithmic;
-  if (y.logarithmic) {  // a value that is zero but for rounding must not press all others together
+  if (y.logarithmic) {  // a value that is zero except for rounding must not compress the range
     double least = std::numeric_limits<double>::infinity(), largest = 0;
     for (auto const& one : series)
       for (double const v : one.y)

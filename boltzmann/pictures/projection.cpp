@@ -1,4 +1,4 @@
-// Projecting marks, sorting them by depth, and the box around them.
+// Projects marks, sorts them by depth, and draws the box around them.
 #include <boltzmann/pictures/canvas_ticks.hpp>
 #include <boltzmann/pictures/projection.hpp>
 
@@ -67,7 +67,7 @@ void each_place_of(Canvas const& space, Visit visit) {
     each_particle(cloud, [&](std::size_t, double x, double y, double z) { visit(x, y, z); });
 }
 
-// The outline of a box: edges behind the content first, the three edges at the nearest corner last; names and ticks
+// The outline of a box: edges behind the content first, the three edges at the nearest corner last. Names and ticks are
 // along three edges of the silhouette.
 class BoxOutline {
  public:
@@ -120,7 +120,7 @@ class BoxOutline {
       if (!ticks.multiplier.empty()) unit.insert(0, unit.empty() ? ticks.multiplier : ticks.multiplier + " ");
       std::string const& label = axes_[along]->label;
       std::string const name = unit.empty() ? label : label.empty() ? "(" + unit + ")" : label + " (" + unit + ")";
-      if (is_named_above(axis, *edge)) {  // where it needs no room beside the box
+      if (is_named_above(axis, *edge)) {  // above the edge it needs no extra margin
         auto const& top = a.up > b.up ? a : b;
         canvas.text(top.right, top.up + 0.04 * size, name, ink, 21, axis == 2 ? 0.85 : 0.5);
       } else {
@@ -129,7 +129,7 @@ class BoxOutline {
     }
   }
 
-  // The range of the picture, with room for the names.
+  // The range of the picture, with space for the names.
   std::array<Interval, 2> ranges() const {
     double const size = std::max(right_.width(), up_.width());
     std::array<Interval, 2> both = {right_, up_};
@@ -137,7 +137,7 @@ class BoxOutline {
     both[0].high += 0.07 * size;
     both[1].low -= 0.07 * size;
     both[1].high += 0.07 * size;
-    for (int axis = 0; axis < 3; ++axis)  // a name below an edge that lies
+    for (int axis = 0; axis < 3; ++axis)  // a name below a horizontal edge
       if (auto const edge = named_edge(axis); edge && !is_named_above(axis, *edge))
         both[1].low = std::min(
             both[1].low, (edge->a.up + edge->b.up) / 2 + (name_distance * std::min(edge->out_up, 0.0) - 0.025) * size);
@@ -145,13 +145,13 @@ class BoxOutline {
   }
 
  private:
-  static constexpr double name_distance = 0.09;  // from its edge, in parts of the picture
+  static constexpr double name_distance = 0.09;  // from its edge, as a fraction of the picture
   struct NamedEdge {
     Place a, b;
-    double out_right, out_up;  // across the edge, away from the box
+    double out_right, out_up;  // direction across the edge, away from the box
   };
-  /// The silhouette's edges along an axis touch neither the nearest nor the farthest corner: x and y are named at the
-  /// lower of them, z at the left one. Nothing if it is seen from its end.
+  /// The silhouette's edges along an axis are those without the nearest and farthest corner. The names of x and y are
+  /// at the lower of them, that of z at the left one. Nothing if the axis is parallel to the direction of view.
   std::optional<NamedEdge> named_edge(int axis) const {
     double const size = std::max(right_.width(), up_.width());
     int best_a = -1, best_b = -1;
@@ -179,7 +179,7 @@ class BoxOutline {
     }
     return edge;
   }
-  /// z, and what stands nearly upright on the picture, is named above the upper end.
+  /// The name of z, or of a nearly vertical axis, is above its upper end.
   static bool is_named_above(int axis, NamedEdge const& edge) { return axis == 2 || std::abs(edge.out_right) > 0.85; }
 
   Place at(int corner) const {
@@ -209,7 +209,7 @@ class BoxOutline {
 // All discs of a space, from far to near.
 class Discs {
  public:
-  // `screen`: the longer side of the picture; sizes in pixels are told in parts of it.
+  // `screen`: the longer side of the picture; sizes in pixels are converted to fractions of it.
   Discs(Canvas const& space, View const& view, double screen) : view_(view) {
     for (auto const& run : space.order())
       for (std::size_t i = run.first; i < run.first + run.count; ++i) {
@@ -240,7 +240,7 @@ class Discs {
   struct Disc {
     Canvas::Circle mark;
     double near;
-    float fade;  // how much paler the farthest is
+    float fade;  // fading of the farthest disc
     bool is_point;
   };
 
@@ -254,7 +254,7 @@ class Discs {
   void add(Canvas::Point const& p) { add({p.x, p.y, p.size, p.colour, true, false, 0, p.z}, 0, true); }
   void add(Canvas::Cloud const& cloud, double screen) {
     discs_.reserve(discs_.size() + cloud.count());
-    // Where the colour carries a value, fading is weak: the colour bar must stay readable.
+    // If the colour represents a value, fading is weak, so that the colour bar remains readable.
     float const fade = cloud.value.empty() ? 1 : 0.4F;
     bool const sized = !cloud.diameter.empty() || cloud.common_diameter != 0;
     each_particle(cloud, [&](std::size_t k, double x, double y, double z) {

@@ -1,4 +1,4 @@
-// Spaces on paper: a canvas with three axes becomes the flat one that shows how it is seen.
+// Projections: converts a canvas with three axes to the flat canvas of its view.
 #pragma once
 
 #include <boltzmann/pictures/canvas.hpp>
@@ -7,13 +7,13 @@
 
 namespace boltzmann {
 
-/// The box of a space: low and high of each axis, from the axes or, where they leave it open, with some room around
-/// the content.
+/// The box of a space: low and high of each axis, from the axes or, if they are automatic, with a margin around the
+/// content.
 std::array<std::array<double, 2>, 3> space_box(Canvas const& space);
 
-/// What a picture of a space shows: marks where their projection puts them, circles, points and clouds sorted by depth
-/// and far ones paler, the outline of the box behind and before them, and names and ticks along its edges. Images,
-/// which have no place in a space, are left out with a note. A flat canvas stays as it is.
+/// The flat picture of a space: marks at their projected positions; circles, points and clouds sorted by depth and
+/// faded with distance; the outline of the box behind and in front; names and ticks along its edges. Images, which have
+/// no position in a space, are omitted with a note. A flat canvas is unchanged.
 Canvas flattened(Canvas const& space);
 
 }  // namespace boltzmann

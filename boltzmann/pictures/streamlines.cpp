@@ -1,4 +1,4 @@
-// From seed to seed: each line lays others beside it.
+// Each line provides seeds for its neighbours.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/pictures/streamlines.hpp>
 
@@ -18,7 +18,7 @@ struct Spot {
 
 double distance(Spot const& a, Spot const& b) { return std::hypot(a.x - b.x, a.y - b.y); }
 
-/// The points of lines, by squares of the separation.
+/// The points of lines, in bins with the size of the separation.
 class Occupied {
  public:
   Occupied(Spot low, Spot high, double separation)
@@ -69,7 +69,7 @@ class LineDrawing {
   std::vector<Streamline> all() {
     std::vector<Streamline> lines;
     if (!(fastest_ > 0)) return lines;
-    // From the middle on, and wherever there is still room.
+    // Start in the middle, then wherever there is space.
     std::deque<Spot> seeds{{0.5 * (low_.x + high_.x), 0.5 * (low_.y + high_.y)}};
     auto const columns = static_cast<int>((high_.x - low_.x) / separation_) + 1,
                rows = static_cast<int>((high_.y - low_.y) / separation_) + 1;
@@ -104,7 +104,7 @@ class LineDrawing {
     return sum;
   }
 
-  /// Of unit length; nothing outside, and where the flow stands still or is not known.
+  /// A unit vector; nothing outside, and where the flow is zero or unknown.
   std::optional<Spot> direction(Spot const& at) const {
     double const x = (at.x - low_.x) / grid_.spacing[0], y = (at.y - low_.y) / grid_.spacing[1];
     if (!(x >= 0 && y >= 0 && at.x <= high_.x && at.y <= high_.y)) return std::nullopt;
@@ -120,7 +120,7 @@ class LineDrawing {
     return Spot{u / speed, v / speed};
   }
 
-  /// A step of the method of Runge and Kutta of fourth order along the line.
+  /// A fourth-order Runge-Kutta step along the line.
   std::optional<Spot> stepped(Spot const& from, double step) const {
     auto const a = direction(from);
     if (!a) return std::nullopt;
@@ -147,12 +147,12 @@ class LineDrawing {
     return line;
   }
 
-  /// True if it comes back to the seed.
+  /// True if it returns to the seed.
   bool follow(Spot const& seed, double step, std::vector<Spot>& points) const {
     double const whole = 20 * ((high_.x - low_.x) + (high_.y - low_.y));
     auto const most = static_cast<std::size_t>(whole / step_);
     bool left = false;
-    Occupied own(low_, high_, separation_);  // where it has been, without what is just behind it
+    Occupied own(low_, high_, separation_);  // its own points, except the most recent
     auto const behind = static_cast<std::size_t>(separation_ / step_);
     for (Spot at = seed; points.size() < most;) {
       auto const next = stepped(at, step);
@@ -164,7 +164,7 @@ class LineDrawing {
       if (occupied_.nearer(at, separation_ / 2)) return false;
       if (points.size() > behind) {
         own.add(points[points.size() - behind - 1]);
-        // A circle that does not quite close, because of the grid, is one; what winds up ends.
+        // A circle that does not quite close because of the grid counts as closed; a spiral ends.
         if (points.size() > 2 * behind && own.nearer(at, separation_ / 4))
           return from_seed < separation_ / 2 && step > 0;
       }

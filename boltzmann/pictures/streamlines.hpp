@@ -9,14 +9,14 @@
 namespace boltzmann {
 
 struct Streamline {
-  bool closed;  ///< it comes back to where it began, which is its last point once more
+  bool closed;  ///< it returns to its start, and its last point repeats the first
   std::vector<double> x, y;
 };
 
-/// Lines that follow the flow with these components on the nodes, linear between them, a distance of `separation` from
-/// each other where they begin and half of it at least where they end (B. Jobard and W. Lefer 1997). They end at the
-/// ends of the grid, at periodic ones too, and where the flow stands still. Error if the grid is not of two dimensions,
-/// has not one value of each for each node, or if the separation is not above a thousandth of its length.
+/// Lines along the flow with these components on the nodes, interpolated linearly. Their distance is `separation` at
+/// their seeds, and at least half of it at their ends (B. Jobard and W. Lefer 1997). They end at the ends of the grid,
+/// even periodic ones, and where the flow is zero. Throws Error if the grid is not two-dimensional, has not one value
+/// of each component per node, or if the separation is not above a thousandth of its length.
 std::vector<Streamline> streamlines(MeshGrid const& grid, std::span<double const> along_x,
                                     std::span<double const> along_y, double separation);
 

@@ -1,4 +1,4 @@
-// The command line of programs, and the run that it asks for.
+// Command-line parsing of a simulation program, and the run that the options describe.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/launcher.hpp>
 #include <boltzmann/core/quantity_text.hpp>
@@ -19,10 +19,10 @@
 namespace boltzmann {
 
 struct Program::Option {
-  std::string name, value, doc;  ///< value: how it is called; empty: it has none
+  std::string name, value, doc;  ///< value: name of the argument in the help; empty: a flag
   void (*take)(Program&, Option const&, std::string const& value);
 
-  /// Error, "--steps: a whole number of 0 to 9e+15 is needed, not 'x'".
+  /// Throws Error, for example "--steps: a whole number of 0 to 9e+15 is needed, not 'x'".
   double number(std::string const& text, double low, double high, bool whole = true) const {
     double read = 0;
     auto const [end, error] = std::from_chars(text.data(), text.data() + text.size(), read);
@@ -114,13 +114,13 @@ Recording Program::recording(Simulation& simulation, std::string const& part, Un
   recorded_.push_back(folder);
   if (threads_) simulation.threads(*threads_);
   if (seed_) simulation.seed(*seed_);
-  if (resume_) setenv("BOLTZMANN_RESUME", "1", 1);  // which a recording asks for
+  if (resume_) setenv("BOLTZMANN_RESUME", "1", 1);  // read when a recording starts
   return Recording(simulation, units, folder, {.overwrite = true});
 }
 
 namespace {
 
-/// Whether the seed of a simulation changes its run.
+/// True if the run depends on the seed of the simulation.
 bool has_noise(Simulation const& simulation) {
   bool noise = !simulation.dissipations().empty() || simulation.equilibrates();
   for (auto const* scheme : simulation.schemes())
@@ -135,7 +135,7 @@ RunReport Program::run(Recording& recording, std::uint64_t steps) {
   if (seed_ && !seed_asked_ && !has_noise(recording.simulation()))
     throw Error("--seed: nothing in this program asks for a seed (Program::seed), so that it would change nothing");
   if (!time_.empty()) return run_for(recording, in_units(time_, dimensions::time, recording.units()));
-  if (signalled_) throw Stopped{130};  // after the last step of the run before
+  if (signalled_) throw Stopped{130};  // the signal came after the last step of the previous run
   std::uint64_t const planned = steps_.value_or(steps);
   bool const in_window = window_ || in_window_;
   if (play_ && !in_window) throw Error("--play is for a --window");
@@ -173,7 +173,7 @@ RunReport Program::run_for(Recording& recording, double time) {
 
 int run_program(int argc, char** argv, std::string const& folder, std::function<void(Program&)> const& function) try {
   started_with(argc, argv);
-  team();  // ranks above 0 print nothing from here on
+  team();  // initialises MPI; from here on, ranks above 0 print nothing
   Program program(argc, argv, folder);
   if (program.wants_help()) {
     fmt::print("{}", Program::help(argc > 0 ? argv[0] : "program", folder));

@@ -1,5 +1,4 @@
-// Program: what every program of a simulation has in common, as `bzm run` has it. A program is
-//
+// Program: the command line, results folder and run loop of a C++ simulation program, as in `bzm run`. A program is
 //   void copper(Program& program) {
 //     ...
 //     Recording recording = program.recording(simulation, units);
@@ -8,9 +7,8 @@
 //   }
 //
 //   int main(int argc, char** argv) { return run_program(argc, argv, "results/copper", copper); }
-//
-// and it has a folder for its results, --steps, --time, --threads, --seed, --hours, --resume, --window, --quiet
-// and --help.
+// It has a results folder and the options --steps, --time, --threads, --seed, --hours, --resume, --window, --quiet and
+// --help.
 #pragma once
 
 #include <boltzmann/recording/recording.hpp>
@@ -29,30 +27,30 @@ class Window;
 
 class Program {
  public:
-  /// `folder` is where results go unless the command line says. Error for what it can't be told.
+  /// `folder` is the results folder unless the command line names another. Throws Error for invalid arguments.
   Program(int argc, char** argv, std::string folder);
 
   std::string const& folder() const { return folder_; }
-  /// The seed of the command line, else this one: for loaders, and for noise by Simulation::seed.
+  /// The seed of the command line, or `otherwise`. Use it for loaders and for noise (Simulation::seed).
   std::uint64_t seed(std::uint64_t otherwise = 1);
   bool quiet() const { return quiet_; }
 
-  /// A recording into the folder; in place of a run that is there, unless that is gone on with.
+  /// A recording into the folder. It overwrites an earlier run there, unless --resume continues that run.
   Recording recording(Simulation& simulation, UnitSystem const& units = UnitSystem::reduced());
-  /// The same for one of several runs, each into a folder of its own inside the folder: recording(simulation, "slow").
-  /// What the command line says holds for each. Error if two have the same folder.
+  /// One of several recordings, each in a subfolder: recording(simulation, "slow"). The options of the command line
+  /// apply to each. Throws Error if two have the same folder.
   Recording recording(Simulation& simulation, std::string const& part, UnitSystem const& units = UnitSystem::reduced());
-  /// The run is in a window, whether the command line asks for one or not; setup(window) may add to it.
+  /// Always runs in a window, with or without --window. `setup` may add views to the window.
   void in_window(std::function<void(Window&)> setup) { in_window_ = std::move(setup); }
-  /// Runs so many steps, or as many as the command line says, with a progress line or in a window. Where a signal or
-  /// --hours stops it the program ends: nothing that follows is done. Error if the command line gives a seed that
-  /// nothing uses.
+  /// Runs `steps` steps, or the number of --steps, with a progress line or in a window. If a signal or --hours stops
+  /// the run, the program ends here and the code after this call is not executed. Throws Error if --seed is given and
+  /// nothing uses a seed.
   RunReport run(Recording& recording, std::uint64_t steps);
-  /// Runs for a time, or that of the command line, in steps of at most the simulation's that end there exactly. Error
-  /// if it is not positive.
+  /// Runs for a time, or that of --time. Time steps are at most the simulation's, and the last one ends exactly at that
+  /// time. Throws Error if the time is not positive.
   RunReport run_for(Recording& recording, double time);
 
-  /// --help was asked for; what there is, in lines.
+  /// True after --help. help() returns the lines to print.
   bool wants_help() const { return help_; }
   static std::string help(std::string const& name, std::string const& folder);
 
@@ -60,24 +58,24 @@ class Program {
   friend int run_program(int, char**, std::string const&, std::function<void(Program&)> const&);
   struct Option;
   struct Stopped {
-    int status;  ///< of the program: 4: out of time; 130: by a signal
+    int status;  ///< exit status of the program: 4: out of time; 130: ended by a signal
   };
   static std::vector<Option> const& options();
 
   std::string folder_;
-  std::vector<std::string> recorded_;  // the folders of its runs
+  std::vector<std::string> recorded_;  // the folders of its recordings
   std::function<void(Window&)> in_window_;
   std::optional<std::uint64_t> steps_, seed_;
   std::optional<int> threads_;
-  std::shared_ptr<WallTime> wall_;  // of --hours
-  std::string time_;                // a quantity, told when the units are known
+  std::shared_ptr<WallTime> wall_;  // limit of --hours
+  std::string time_;                // --time as a quantity; parsed when the units are known
   int port_ = 0;
   bool resume_ = false, window_ = false, play_ = false, quiet_ = false, help_ = false, seed_asked_ = false,
        signalled_ = false;
 };
 
-/// Reads the command line, calls function(program), and gives main's exit status: 0; 4 if it ran out of time; 130 if a
-/// signal has stopped it; of what is thrown that of report().
+/// Parses the command line, calls function(program), and returns the exit status for main: 0; 4 if the run was out of
+/// time; 130 if a signal stopped it; for an exception the status of report().
 int run_program(int argc, char** argv, std::string const& folder, std::function<void(Program&)> const& function);
 
 }  // namespace boltzmann

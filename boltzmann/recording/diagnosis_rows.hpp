@@ -1,5 +1,4 @@
-// Diagnosis rows: what diagnoses measure, row by row in diagnoses.csv, and the condition that ends a run. Private to
-// this room.
+// Diagnosis rows: the rows of diagnoses.csv, and the condition that ends a run. Private to this module.
 #pragma once
 
 #include <boltzmann/core/unit_system.hpp>
@@ -22,16 +21,16 @@ namespace boltzmann {
 class DiagnosisRows {
  public:
   using Listener = std::function<void(std::int64_t step, std::span<double const> values)>;
-  /// When a run ends by what its rows say.
+  /// A condition on the rows that ends the run.
   struct End {
     std::string what;
-    std::function<bool(std::int64_t step, std::span<double const> values)> condition;  ///< empty once it was true
-    std::optional<std::int64_t> met;  ///< the step at which it was, in this run or an earlier part of it
-    std::string met_by;               ///< `what`, if it was in this one,
+    std::function<bool(std::int64_t step, std::span<double const> values)> condition;  ///< reset once it was true
+    std::optional<std::int64_t> met;  ///< the step at which it became true, in this run or an earlier part of it
+    std::string met_by;               ///< a copy of `what`, if it became true in this part of the run
     std::int64_t met_now = -1;        ///< and at which step
   };
 
-  std::int64_t every = 0;  ///< steps; 0: never
+  std::int64_t every = 0;  ///< sampling interval in steps; 0: never
   End end;
 
   DiagnosisRows(Simulation& simulation, UnitSystem const& units)
@@ -39,20 +38,21 @@ class DiagnosisRows {
 
   void add(std::int64_t interval, std::unique_ptr<Diagnosis> diagnosis);
   void listen(Listener listener) { listeners_.push_back(std::move(listener)); }
-  /// Error if two columns have one name, or a diagnosis can't be measured in this simulation.
+  /// Throws Error if two columns have one name, or a diagnosis can't be measured in this simulation.
   void check() const;
 
   Instruments const& instruments() const { return instruments_; }
-  /// What diagnoses have gathered so far: the names of its files, "NAME.csv", and the files in this folder.
+  /// Writes what diagnoses have accumulated so far into this folder. Returns the names of the files, "NAME.csv".
   std::vector<std::string> gathered_files() const;
   void write_gathered(std::string const& folder) const;
 
   void begin(std::string const& path);
-  /// Goes on behind the rows of the run that was saved.
+  /// Continues the table after the rows of the saved run.
   void go_on(std::string const& path, Checkpoint const& saved);
-  /// Measures the present step, and writes what it is. True if the condition is met by it, for the first time.
+  /// Measures the current step and writes a row. Returns true if this row is the first that meets the condition.
   bool write();
-  /// What a run that goes on needs, once the table is on the disk, and back. Error if it is another's.
+  /// Stores what a resumed run needs, after syncing the table to the disk, and restores it. Throws Error if the table
+  /// is that of another run.
   void save(Checkpoint& checkpoint);
   void restore(Checkpoint const& saved, std::string const& path);
   void close() { csv_.reset(); }

@@ -1,4 +1,4 @@
-// All diagnoses of a look share what has to be found for it: energies, fields of a mesh.
+// All diagnoses of a sample share the quantities that must be computed for it: energies, fields of a mesh.
 #include <boltzmann/core/units.hpp>
 #include <boltzmann/recording/instruments.hpp>
 #include <boltzmann/simulation/conserved.hpp>

@@ -1,4 +1,4 @@
-// Instruments: diagnoses that look at a simulation together, and what they say of a finished step.
+// Instruments: diagnoses that sample a simulation together, and their values at a finished step.
 #pragma once
 
 #include <boltzmann/core/unit_system.hpp>
@@ -16,11 +16,11 @@ namespace boltzmann {
 
 class Instruments {
  public:
-  /// Both must outlive it.
+  /// Keeps references: both must outlive it.
   Instruments(Simulation& simulation, UnitSystem const& units) : simulation_(simulation), units_(units) {}
 
   void add(std::unique_ptr<Diagnosis> diagnosis);
-  /// Gives all away.
+  /// Releases ownership of all diagnoses.
   std::vector<std::unique_ptr<Diagnosis>> release() {
     factors_.clear();
     return std::exchange(list_, {});
@@ -28,27 +28,28 @@ class Instruments {
   bool empty() const { return list_.empty(); }
   std::vector<std::unique_ptr<Diagnosis>> const& all() const { return list_; }
   std::vector<Diagnosis const*> list() const;
-  /// Error if two columns have one name, or a diagnosis can't be measured in this simulation.
+  /// Throws Error if two columns have one name, or a diagnosis can't be measured in this simulation.
   void check() const;
 
-  /// Of the rows, behind step and time.
+  /// The columns of a row, after step and time.
   std::vector<Column> columns() const;
   /// "step", "time (ps)", "total energy (eV)", ...
   std::vector<std::string> header() const;
 
-  /// The time and one number for each of columns(), of the present step, in the simulation's own units.
+  /// The time and one number per column of columns(), at the current step, in the simulation's own units.
   std::vector<double> measure() const;
-  /// The same numbers in the units of header().
+  /// Converts these numbers to the units of header().
   void show(std::span<double> row) const;
 
-  /// Whether all of them ask for sums over particles alone.
+  /// True if all of them need only global sums.
   bool sums_suffice() const;
-  /// Whether some of them see every step.
+  /// True if some of them must be updated after every step.
   bool follow_steps() const;
-  /// Lets these see the present step.
+  /// Updates the diagnoses that need every step.
   void follow() const;
 
-  /// What they have gathered so far, each with the name of its file less ".csv", in the units that it names.
+  /// Tables that they have accumulated so far, each with the name of its file without ".csv", in the units that the
+  /// file names.
   std::vector<std::pair<std::string, CsvTable>> gathered() const;
 
  private:
@@ -57,7 +58,7 @@ class Instruments {
   Simulation& simulation_;
   UnitSystem const& units_;
   std::vector<std::unique_ptr<Diagnosis>> list_;
-  std::vector<double> factors_;  // from the simulation's units to those of the header
+  std::vector<double> factors_;  // convert from the simulation's units to those of the header
 };
 
 }  // namespace boltzmann

@@ -1,4 +1,4 @@
-// The signal handler: it may only set flags, so the simulation looks at its own after every step.
+// The signal handler may only set flags. The simulation checks its flag after every step.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/launcher.hpp>
 #include <boltzmann/core/team.hpp>
@@ -18,20 +18,20 @@
 namespace boltzmann {
 namespace {
 
-// A handler has no argument of its own, so what it acts on has to be found without one.
+// A handler has no argument, so the simulation that it stops is a global variable.
 std::atomic<Simulation*> stopped_by_signal{nullptr};
 std::atomic<int> signals_seen{0};
 std::atomic<bool> left_alone{false};
 std::mutex installing;
-int watches = 0, interrupts = 0;  // each of which has a watch, too
+int watches = 0, interrupts = 0;  // each Interrupt also has a SignalWatch
 thread_local Interrupt* present = nullptr;
 static_assert(std::atomic<Simulation*>::is_always_lock_free && std::atomic<int>::is_always_lock_free);
-// SIGUSR1 is what mpirun and srun hand on without ending a run themselves.
+// mpirun and srun forward SIGUSR1 without ending the run themselves.
 std::array<int, 4> constexpr signals{SIGINT, SIGTERM, SIGHUP, SIGUSR1};
 std::array<struct sigaction, 4> before;
 
 std::atomic<bool> several_ranks{false};
-std::atomic<std::int64_t> first_signal{0};  // when it came, in ms
+std::atomic<std::int64_t> first_signal{0};  // time of the signal in ms
 static_assert(std::atomic<std::int64_t>::is_always_lock_free);
 
 std::int64_t milliseconds() {
@@ -40,7 +40,7 @@ std::int64_t milliseconds() {
   return static_cast<std::int64_t>(now.tv_sec) * 1000 + now.tv_nsec / 1000000;
 }
 
-/// A launcher sends SIGTERM to ranks that have got the signal of the terminal already, and so does a batch system.
+/// Launchers and batch systems send SIGTERM to ranks that have already received the signal of the terminal.
 bool same_signal_again(int number) {
   return several_ranks && number != SIGUSR1 && milliseconds() - first_signal < 2000;
 }
@@ -70,7 +70,7 @@ SignalWatch::SignalWatch() {
   struct sigaction action {};
   action.sa_handler = on_signal;
   sigemptyset(&action.sa_mask);
-  action.sa_flags = SA_RESTART;  // a write to a file goes on
+  action.sa_flags = SA_RESTART;  // restart an interrupted write to a file
   for (std::size_t i = 0; i < signals.size(); ++i) {
     if (signals[i] == SIGUSR1 && team().alone()) {
       sigaction(SIGUSR1, nullptr, &before[i]);

@@ -1,4 +1,4 @@
-// Whether a run is long enough for what is measured in it, and its steps short enough to its end.
+// Checks that a run is long enough for its measurements, and its time steps short enough to its end.
 #include <boltzmann/diagnoses/average.hpp>
 #include <boltzmann/diagnoses/diffusion.hpp>
 #include <boltzmann/diagnoses/green_kubo.hpp>
@@ -30,7 +30,7 @@ struct Plan {
 
   double end() const { return time + static_cast<double>(steps) * step_size; }
   std::string told(double number) const { return units.text(number, dimensions::time, 3); }
-  /// How often something looks that looks every so many steps, from a time on.
+  /// The number of samples at this interval from a time on.
   std::int64_t looks(std::int64_t every, double since) const {
     if (every < 1) return 0;
     std::int64_t skipped = 0;
@@ -41,7 +41,7 @@ struct Plan {
   }
 };
 
-/// Something that compares looks up to `count` of them apart.
+/// A diagnosis that correlates samples up to `count` intervals apart.
 struct Correlator {
   std::string kind, result;
   std::int64_t every;
@@ -60,7 +60,7 @@ std::optional<Correlator> correlator(Diagnosis const& diagnosis, Plan const& pla
   return std::nullopt;
 }
 
-/// The time from which it measures, if it was given one.
+/// The time from which it measures, if one was given.
 double since(Diagnosis const& diagnosis) {
   if (auto const* one = dynamic_cast<Average const*>(&diagnosis)) return one->since();
   if (auto const* one = dynamic_cast<Diffusion const*>(&diagnosis)) return one->since();

@@ -1,4 +1,4 @@
-// Planned run: what diagnoses should say of a run before it begins. Private to this room, and for `bzm check`.
+// Planned run: warnings of diagnoses before a run starts. Private to this module, and used by `bzm check`.
 #pragma once
 
 #include <boltzmann/recording/recording.hpp>
@@ -9,8 +9,8 @@
 
 namespace boltzmann {
 
-/// Lines that begin with "warning: ": diagnoses that get nothing, or too little, in a run of so many steps from here,
-/// and gas whose collapse will need shorter steps.
+/// Lines that begin with "warning: ", for a run of this many steps from the current one: diagnoses that get no samples
+/// or too few, and gas whose collapse will need shorter time steps.
 std::vector<std::string> planned_warnings(Recording const& recording, std::int64_t steps);
 
 }  // namespace boltzmann

@@ -1,4 +1,5 @@
-// The progress line. The clock is read only as often as the line can change, so that it costs a small system nothing.
+// The progress line. The clock is read only as often as the line can change, so the cost is negligible for small
+// systems.
 #include <boltzmann/core/clock.hpp>
 #include <boltzmann/core/team.hpp>
 #include <boltzmann/recording/interrupt.hpp>
@@ -17,7 +18,7 @@
 namespace boltzmann {
 namespace {
 
-// 1234567 -> "1.23 million"; what a reader takes in at a glance.
+// 1234567 -> "1.23 million".
 std::string rate_text(double rate) {
   if (rate >= 1e6) return fmt::format("{:.3g} million", rate / 1e6);
   if (rate >= 100) return fmt::format("{:.0f}", rate);
@@ -33,7 +34,7 @@ class ProgressLine {
         terminal_(rewrites_lines()),
         next_tenth_(planned_ > 0 ? first * 10 / planned_ + 1 : 11) {}
 
-  /// What comes before the first step may take long: an equilibration, lists, plans of transforms.
+  /// The work before the first step may take long: equilibration, lists, plans of transforms.
   void begin(bool equilibrates) const {
     char const* const what = equilibrates ? "equilibrating" : "getting ready";
     if (terminal_)
@@ -42,10 +43,10 @@ class ProgressLine {
       fmt::print(stderr, "{}\n", what);
   }
 
-  /// Looks at the clock if the steps since the last look make that worthwhile.
+  /// Reads the clock if enough steps have passed since the last reading.
   void look(std::int64_t step) {
     if (step < next_look_ && step != last_) return;
-    if (!stepped_) {  // from here on steps are timed
+    if (!stepped_) {  // steps are timed from here on
       stepped_ = true;
       first_ = step;
       start_ = Clock::now();
@@ -60,7 +61,7 @@ class ProgressLine {
         show(step, now);
       }
     }
-    // The next look 50 ms from now, and never more than twice the steps so far ahead.
+    // Schedule the next reading 50 ms from now, but never more than twice as many steps ahead as were done.
     double const rate = now > 0 ? static_cast<double>(done) / now : 1;
     auto ahead =
         static_cast<std::int64_t>(std::clamp(rate * 0.05, 1.0, static_cast<double>(std::max<std::int64_t>(done, 1))));
@@ -95,20 +96,20 @@ class ProgressLine {
   double shown_ = 0;
 };
 
-// Whether another few steps, and what is written at the end, fit into the time that is left.
+// Decides whether further steps and the output at the end fit into the remaining time.
 class TimeLimit {
  public:
   TimeLimit(double seconds, std::function<double()> seconds_at_end)
       : seconds_(seconds), seconds_at_end_(std::move(seconds_at_end)) {}
 
-  /// After a step.
+  /// Called after each step. Returns true when the limit is reached.
   bool reached() {
     if (++steps_ < between_looks_) return false;
     double const now = seconds_since(start_), took = now - last_look_;
     steps_ = 0;
-    if (last_look_ > 0) longest_ = std::max(longest_, took);  // not what came before the first step
+    if (last_look_ > 0) longest_ = std::max(longest_, took);  // exclude the setup before the first step
     last_look_ = now;
-    // The clock costs what ten pairs cost; it is read after every step unless they are short.
+    // Reading the clock costs as much as ten pairs. It is read after every step unless steps are short.
     between_looks_ =
         took > 1e-3 ? std::max<std::int64_t>(between_looks_ / 2, 1) : std::min<std::int64_t>(2 * between_looks_, 64);
     return now + 2 * longest_ + 2 * (seconds_at_end_ ? seconds_at_end_() : 0) >= seconds_;
@@ -121,8 +122,8 @@ class TimeLimit {
   std::int64_t steps_ = 0, between_looks_ = 1;
 };
 
-// What looks at a run after each step: its progress line, its limit of time, and a count of the particles that are
-// moved where their number changes.
+// Observer of each step: the progress line, the time limit, and the count of moved particles where their number
+// changes.
 struct Watch {
   std::optional<ProgressLine> line;
   std::optional<TimeLimit> limit;

@@ -1,4 +1,4 @@
-// Running a recording to its end, and the table that is printed then.
+// Runs a recording to its end and prints the summary table.
 #include <boltzmann/core/team.hpp>
 #include <boltzmann/recording/planned_run.hpp>
 #include <boltzmann/recording/recording.hpp>
@@ -60,7 +60,7 @@ RunReport run_with_progress(Recording& recording, std::uint64_t steps, ProgressO
   Interrupt const interrupt(simulation);
   steps = recording.resume_if_asked(steps);
   simulation.check();
-  // What the run begins with is known only when it has been equilibrated.
+  // The initial values of conserved quantities are known only after equilibration.
   Conserved start = conserved(simulation);
   Attending const observer(
       simulation, simulation.observe_when([first = simulation.step()](std::int64_t step) { return step == first; },
@@ -68,7 +68,8 @@ RunReport run_with_progress(Recording& recording, std::uint64_t steps, ProgressO
                                             start = conserved(now);
                                             need_finite(now, start);
                                           }));
-  if (options.warnings && simulation.step() == 0)  // else earlier parts of the run count, too
+  // a resumed run also has the samples of its earlier parts
+  if (options.warnings && simulation.step() == 0)
     for (auto const& line : planned_warnings(recording, static_cast<std::int64_t>(steps)))
       fmt::print(stderr, "{}\n", line);
   double const before = recording.seconds();

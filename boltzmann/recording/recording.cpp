@@ -1,4 +1,4 @@
-// When what is written, and that nothing half written is left behind.
+// Schedules the output of a run, and ensures that no half-written file is left behind.
 #include <boltzmann/core/clock.hpp>
 #include <boltzmann/core/team.hpp>
 #include <boltzmann/diagnoses/diagnosis_catalogue.hpp>
@@ -26,7 +26,7 @@
 namespace boltzmann {
 namespace {
 
-/// As steps of a run, of which it is a number of 1 or more.
+/// Converts to a number of steps, which must be at least 1.
 std::int64_t interval(std::uint64_t every, char const* what) {
   if (every == 0) throw Error(fmt::format("{} are recorded every 1 or more steps, not every 0", what));
   return static_cast<std::int64_t>(every);
@@ -40,7 +40,7 @@ void put_back(std::vector<Checkpoint::Rows> const& rows, std::vector<AnyEnsemble
   for (std::size_t e = 0; e < ensembles.size(); ++e) restore_rows(rows[e], *ensembles[e]);
 }
 
-/// Particles as they were at a step.
+/// The particles at a recorded step.
 struct RecordedState {
   std::vector<Checkpoint::Rows> rows;
   std::int64_t step = -1;
@@ -83,10 +83,10 @@ struct Recording::State {
 
   std::string checkpoint_path() const { return folder.path("checkpoint.h5"); }
 
-  /// Also before Simulation::check() has collected them.
+  /// The ensembles, also before Simulation::check() has collected them.
   std::vector<AnyEnsemble*> ensembles() const { return supervised_by(simulation.schemes()); }
 
-  /// What diagnoses are made from.
+  /// The inputs for the construction of a diagnosis.
   DiagnosisParameters parameters(std::string_view kind) const {
     DiagnosisParameters parameters;
     parameters.units = units;
@@ -127,7 +127,7 @@ struct Recording::State {
     if (writes) folder.check();
   }
 
-  /// Whether the environment wants the run of a program to go on, and there is one.
+  /// True if BOLTZMANN_RESUME is set and the folder has a run to resume.
   bool resume_asked() const {
     if (!writes) return false;
     char const* said = std::getenv("BOLTZMANN_RESUME");
@@ -166,7 +166,7 @@ struct Recording::State {
     if (every_mesh > 0) mesh_frames.emplace(folder.name());
   }
 
-  /// What the run is, for those who come later: its scenario, or what a program does.
+  /// Stores the description of the run: its scenario, or the run file of a program.
   void describe() const {
     bool const told = !scenario.empty();
     write_whole(folder.path(told ? "scenario.toml" : run_file),
@@ -180,13 +180,13 @@ struct Recording::State {
   }
 
   bool is_due(std::int64_t every) const { return every > 0 && simulation.step() % every == 0; }
-  /// Whether diagnoses alone look now, and ask for no particles.
+  /// True if only diagnoses are due and all of them need only global sums, so that no rows are gathered.
   bool sums_suffice() const {
     return open && !is_due(frames.every) && !is_due(every_mesh) && !is_due(every_checkpoint) &&
            !rows.instruments().follow_steps() && rows.instruments().sums_suffice();
   }
 
-  /// Not those of other ranks where sums are asked for.
+  /// False on a rank that does not hold all rows, where only global sums are computed.
   bool rows_are_known() const {
     Share const* const share = ensembles().front()->share();
     return !share || !share->sums;
@@ -208,15 +208,15 @@ struct Recording::State {
       rows.instruments().follow();
       if (step < next) return;
       if (rows_are_known()) last.emplace(simulation);
-      if (is_due(rows.every) && rows.write()) planned = step;  // the checkpoint that is written last says the end
+      if (is_due(rows.every) && rows.write()) planned = step;  // the last checkpoint records that the run has ended
       if (writes && is_due(frames.every)) frames.write();
       if (writes && is_due(every_mesh))
         mesh_frames->write(step, simulation.time(), mesh_fields_of(simulation.schemes()));
       if (first || is_due(every_checkpoint))
-        write_checkpoint();  // the last one, so that it holds the state after all looks
+        write_checkpoint();  // written last, so that it holds the state after all measurements
     } catch (Error const& error) {
       if (first) throw;
-      end();  // nothing more is written: what is there stays whole
+      end();  // stop writing, so that the existing files stay intact
       if (!writes) throw;
       throw RecordingFailure(fmt::format("step {}: {}; {}", step, error.what(), checkpoint_left()));
     }
@@ -228,7 +228,7 @@ struct Recording::State {
                      next_multiple(step, every_mesh), next_multiple(step, every_checkpoint)});
   }
 
-  /// What a failure leaves to go on from.
+  /// Names the checkpoint from which a failed run can be resumed.
   std::string checkpoint_left() const {
     try {
       return fmt::format("the last checkpoint is intact: {} (step {})", checkpoint_path(),
@@ -300,7 +300,7 @@ struct Recording::State {
     }
   }
 
-  /// Nothing is written any more.
+  /// Stops all output.
   void end() {
     finished = true;
     frames.drop();

@@ -1,4 +1,4 @@
-// TOML, table by table.
+// Writes the run file as TOML, table by table.
 #include <boltzmann/core/toml_text.hpp>
 #include <boltzmann/pictures/picture_options.hpp>
 #include <boltzmann/recording/run_file.hpp>
@@ -19,7 +19,7 @@ std::string value(std::vector<T> const& list) {
   return text + "]";
 }
 
-/// So many of three numbers.
+/// The first `count` of three numbers.
 std::string numbers(std::array<double, 3> const& all, int count) {
   return value(std::vector<double>(all.begin(), all.begin() + count));
 }

@@ -1,4 +1,4 @@
-// The run file of a program: what its folder says of a run besides the numbers, since no scenario is there to say it.
+// The run file of a program: it describes a run for which there is no scenario.
 #pragma once
 
 #include <boltzmann/boundaries/box.hpp>
@@ -13,8 +13,8 @@ namespace boltzmann {
 
 inline constexpr char const* run_file = "run.toml";  ///< in the folder of the run
 
-/// Title, units, size of the step, box with its walls and regions, classes of the ensembles with their fields,
-/// pictures, as TOML; numbers are in the simulation's units, except for those of [units]. scenario/stored_run.hpp reads it.
+/// Title, units, time step, box with its walls and regions, classes of the ensembles with their fields, and pictures,
+/// as TOML. Numbers are in the simulation's units, except for those of [units]. scenario/stored_run.hpp reads it.
 std::string run_file_text(std::string const& title, UnitSystem const& units, double step_size, Box const& box,
                           std::span<AnyEnsemble* const> ensembles, std::span<Picture const> pictures);
 

@@ -1,4 +1,4 @@
-// What may be written where, told before anything is.
+// Checks what may be written where, before anything is written.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/files/mesh_frames.hpp>
 #include <boltzmann/files/text_file.hpp>
@@ -35,7 +35,7 @@ void RunFolder::check() const {
         if (fs::exists(place / file, ignored))
           throw Error("'" + name_ + "' already holds a run; choose another folder, or replace it with --force");
   }
-  // The nearest folder that exists has to take new entries.
+  // The nearest existing folder must be writable.
   fs::path parent = fs::absolute(place);
   while (!fs::exists(parent, ignored) && parent.has_relative_path()) parent = parent.parent_path();
   if (!fs::is_directory(parent, ignored))
@@ -50,7 +50,7 @@ void RunFolder::begin(std::span<std::string const> others) {
   fs::create_directories(name_, error);
   if (error) throw Error("the folder '" + name_ + "' can't be made: " + error.message());
   lock();
-  check();  // another run may have come and gone
+  check();  // another process may have written here since the first check
   remove_results();
   for (auto const& file : others) fs::remove(path(file), error);
 }

@@ -1,4 +1,4 @@
-// Run folder: where the files of a run stand, and who may write them. Private to this room.
+// Run folder: the location of a run's files, and the lock against a second writer. Private to this module.
 #pragma once
 
 #include <boltzmann/files/folder_lock.hpp>
@@ -10,21 +10,21 @@ namespace boltzmann {
 
 class RunFolder {
  public:
-  /// Error if it has no name.
+  /// Throws Error if the name is empty.
   RunFolder(std::string name, bool overwrite);
 
   std::string const& name() const { return name_; }
   std::string path(std::string const& file) const { return name_ + "/" + file; }
 
-  /// Error if a run can't begin here: it can't be written, or holds a run that is not to be overwritten. Writes
-  /// nothing.
+  /// Throws Error if a run can't start here: the folder can't be written, or holds a run that must not be overwritten.
+  /// Writes nothing.
   void check() const;
-  /// Makes and locks it, and removes what an older run has left, these further files too.
+  /// Creates and locks the folder, and removes the files of an earlier run, including `others`.
   void begin(std::span<std::string const> others);
-  /// Removes what a run that could not start has left.
+  /// Removes the files of a run that could not start.
   void undo();
 
-  /// Error if another process writes here.
+  /// Throws Error if another process writes here.
   void lock() { lock_ = lock_folder(name_); }
   void unlock() { lock_.reset(); }
 
@@ -33,7 +33,7 @@ class RunFolder {
 
   std::string name_;
   bool overwrite_, made_ = false;
-  FolderLock lock_;  // from the first change to the last
+  FolderLock lock_;  // held from the first change to the last
 };
 
 }  // namespace boltzmann

@@ -1,4 +1,4 @@
-// Frames of a run, and which of them stay when it goes on.
+// Frames of a run, and which of them are kept when it is resumed.
 #include <boltzmann/files/trajectory_view.hpp>
 #include <boltzmann/recording/run_frames.hpp>
 #include <boltzmann/recording/saved_state.hpp>
@@ -62,7 +62,7 @@ void RunFrames::check(Checkpoint const& saved, std::string const& path) const {
         fmt::format("{}: its frames up to step {} are not those that this run has written (damaged, or of "
                     "another run)",
                     path, saved.step));
-  // This also finds damage of HDF5's own tables, over which it would not come while it writes.
+  // This also finds damage of HDF5's own tables, which would make later writes fail.
   if (auto const damage = stored.find_damage(count); !damage.empty())
     fmt::print(stderr, "warning: {}; the run goes on, and the frame stays as it is\n", damage);
 }
@@ -105,7 +105,8 @@ void RunFrames::write() {
                std::vector<AnyEnsemble const*>(ensembles.begin(), ensembles.end()),
                edges_of(simulation_.schemes().front()->box()));
   auto const options = this->options();
-  times_.push_back((options.factor ? options.factor(dimensions::time) : 1) * simulation_.time());  // as in the file
+  // in the unit of the file
+  times_.push_back((options.factor ? options.factor(dimensions::time) : 1) * simulation_.time());
   if (sizes_.empty()) sizes_ = sizes_of(ensembles);
   if (same_particles_ && sizes_ != sizes_of(ensembles)) {
     same_particles_ = false;
@@ -124,7 +125,7 @@ void RunFrames::show(bool finished) {
                           edges_of(simulation_.schemes().front()->box()), times_, finished);
     shown_ = true;
   } catch (Error const&) {
-    shown_ = false;  // the frames are there without it; the next one tries again
+    shown_ = false;  // the frames do not depend on the view; the next call tries again
   }
 }
 

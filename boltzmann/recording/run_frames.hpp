@@ -1,4 +1,4 @@
-// Run frames: trajectory.h5 while a run writes it, and its view, trajectory.h5md. Private to this room.
+// Run frames: trajectory.h5 while a run writes it, and its view, trajectory.h5md. Private to this module.
 #pragma once
 
 #include <boltzmann/core/unit_system.hpp>
@@ -14,34 +14,35 @@
 
 namespace boltzmann {
 
-/// A frame every so many steps, and one of the last state. Where a run goes on from a checkpoint, the frames that were
-/// written after it are taken back: of a run that was killed, and the last one of a run that was stopped between two,
-/// which a run without a stop doesn't have; that one stays until the next frame.
+/// Writes a frame every `every` steps, and one of the last state. Resuming from a checkpoint removes the frames written
+/// after it: those of a killed run, and the last frame of a run that was stopped between two regular frames, which a
+/// run without a stop does not have. The latter is kept until the next frame is written.
 class RunFrames {
  public:
   RunFrames(Simulation const& simulation, UnitSystem const& units) : simulation_(simulation), units_(units) {}
 
-  std::int64_t every = 0;                                          ///< steps; 0: never
-  std::vector<std::pair<std::string, std::string>> elements = {};  ///< of ensembles
+  std::int64_t every = 0;                                          ///< interval in steps; 0: never
+  std::vector<std::pair<std::string, std::string>> elements = {};  ///< by ensemble
 
   void begin(std::string const& path);
-  /// Error if the file does not begin with the frames that the saved run had written.
+  /// Throws Error if the file does not begin with the frames that the saved run had written.
   void check(Checkpoint const& saved, std::string const& path) const;
   void go_on(std::string const& path, Checkpoint const& saved);
   void write();
-  /// The last state, unless it has a frame.
+  /// Writes a frame of the last state, unless it has one.
   void write_last();
-  /// What stands in the file, so that one of another run is not gone on with, once it is on the disk.
+  /// Stores the number and checksum of frames, after syncing the file, so that the file of another run is not
+  /// continued.
   void save(Checkpoint& checkpoint);
-  /// Error if the file can't be finished.
+  /// Throws Error if the file can't be finished.
   void close();
-  /// The same without a word.
+  /// Closes the file and ignores errors.
   void drop() { file_.reset(); }
 
  private:
   TrajectoryOptions options() const;
   void open();
-  /// For MDAnalysis, where all frames have the same particles; nothing if it can't be written.
+  /// Writes the view for MDAnalysis, if all frames have the same particles. Ignores a failure to write.
   void show(bool finished);
   std::string view() const { return path_ + "md"; }
 
@@ -49,13 +50,13 @@ class RunFrames {
   UnitSystem const& units_;
   std::string path_;
   std::optional<Trajectory> file_;
-  bool marked_ = false;  // since the last checkpoint
-  // Until a stored file is opened: the step, number and checksum of the frames that stay, and the step of the stop.
+  bool marked_ = false;  // true if something was stored since the last checkpoint
+  // Valid until a stored file is opened: the step, number and checksum of the frames to keep, and the step of the stop.
   std::int64_t stay_until_ = 0, stopped_ = 0;
   std::pair<std::size_t, std::uint64_t> stay_;
   std::vector<double> times_;                   // of all frames, as written
-  std::vector<std::size_t> sizes_;              // of ensembles, in the first one
-  bool same_particles_ = true, shown_ = false;  // in all; since the file was begun, or gone on with
+  std::vector<std::size_t> sizes_;              // particles per ensemble in the first frame
+  bool same_particles_ = true, shown_ = false;  // in all frames; written since the file was created or continued
 };
 
 }  // namespace boltzmann

@@ -1,4 +1,4 @@
-// Saved state: parts of a checkpoint by name. Private to this room.
+// Saved state: parts of a checkpoint by name. Private to this module.
 #pragma once
 
 #include <boltzmann/core/error.hpp>
@@ -10,7 +10,7 @@
 
 namespace boltzmann {
 
-/// 64 bits as two numbers that a checkpoint's state holds, and back.
+/// Stores 64 bits as two numbers of a checkpoint, and restores them.
 inline std::vector<double> halves(std::uint64_t bits) {
   return {static_cast<double>(bits >> 32U), static_cast<double>(bits & 0xffffffffU)};
 }
@@ -18,7 +18,7 @@ inline std::uint64_t whole(std::vector<double> const& halves) {
   return static_cast<std::uint64_t>(halves.at(0)) << 32U | static_cast<std::uint64_t>(halves.at(1));
 }
 
-/// Error, naming the file, if it is not there.
+/// Throws Error, naming the file, if the part is missing.
 inline std::vector<double> const& saved_part(Checkpoint const& saved, std::string const& name,
                                              std::string const& path) {
   auto const found = saved.state.find(name);

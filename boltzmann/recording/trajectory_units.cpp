@@ -1,4 +1,4 @@
-// The units that MDAnalysis knows.
+// Chooses units that MDAnalysis supports.
 #include <boltzmann/recording/trajectory_units.hpp>
 
 #include <boltzmann/core/quantity_text.hpp>
@@ -10,11 +10,11 @@
 namespace boltzmann {
 namespace {
 
-constexpr double largest_of_atoms = 1e-8;  // m
+constexpr double largest_of_atoms = 1e-8;  // in m
 
 struct Known {
   Dimension dimension;
-  std::array<char const*, 5> units;  // the first one is taken in place of another
+  std::array<char const*, 5> units;  // the first one replaces any other
 };
 constexpr std::array known{
     Known{dimensions::length, {"angstrom", "nm", "pm", "fm", "fm"}},

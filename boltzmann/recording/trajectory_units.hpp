@@ -1,12 +1,12 @@
-// Trajectory units: in which units trajectory.h5 is. Private to this room.
+// Trajectory units: the units of trajectory.h5. Private to this module.
 #pragma once
 
 #include <boltzmann/core/unit_system.hpp>
 
 namespace boltzmann {
 
-/// Those of results; of runs of atoms lengths, times and velocities in such that MDAnalysis knows (it takes angstrom/fs for
-/// something else, and knows no bohr).
+/// The units of results. For runs of atoms, lengths, times and velocities are in units that MDAnalysis supports: it
+/// misreads angstrom/fs and has no bohr.
 UnitSystem::Display trajectory_unit(UnitSystem const& units, Dimension dimension);
 
 }  // namespace boltzmann

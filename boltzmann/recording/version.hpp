@@ -1,4 +1,4 @@
-// The version of the program, as files and `bzm --version` say it; the same as in CMakeLists.txt.
+// The version of the program, as in files and `bzm --version`. It must be the same as in CMakeLists.txt.
 #pragma once
 
 namespace boltzmann {

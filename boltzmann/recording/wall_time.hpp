@@ -1,4 +1,4 @@
-// Wall time: how long a run may take before a queue ends it.
+// Wall time: how long a run may take before a batch queue ends it.
 #pragma once
 
 #include <boltzmann/core/clock.hpp>
@@ -8,13 +8,14 @@
 
 namespace boltzmann {
 
-/// A limit that begins with it, but for a reserve for pictures and tables: 1 %, 2 s at least and a minute at most.
+/// A limit that starts with its construction, less a reserve for pictures and tables: 1 %, at least 2 s and at most a
+/// minute.
 class WallTime {
  public:
   explicit WallTime(std::optional<double> hours) {
     if (hours) seconds_ = 3600 * *hours - std::clamp(36 * *hours, 2.0, 60.0);
   }
-  /// What is left; 0: there is no limit.
+  /// The remaining time; 0: there is no limit.
   double seconds() const {
     if (!seconds_) return 0;
     return std::max(*seconds_ - seconds_since(begun_), 1e-9);

@@ -1,4 +1,4 @@
-// From one table with `among` to a table for each pair of species.
+// Expands one table with `among` to a table for each pair of species.
 #include <boltzmann/scenario/among.hpp>
 
 #include <boltzmann/core/error.hpp>
@@ -67,7 +67,7 @@ class Among {
         mixing_.emplace_back(entry.key, &entry.item);
   }
 
-  /// The same table with one number for each parameter.
+  /// The same table with a single number for each parameter.
   Item table_for(std::string const& a, std::string const& b) {
     Item table = table_;
     std::erase_if(table.entries, [](Entry const& entry) { return entry.key == "among" || entry.key == "mixing"; });
@@ -118,7 +118,7 @@ class Among {
       parameter.item = mixed(parameter.key, *value(a), *value(b), rule->second->text == "geometric");
   }
 
-  /// Every key of such a table is a species or two of them.
+  /// Checks that every key of such a table is a species or a pair of species.
   void check_names(std::string const& parameter, Item const& by_names) {
     std::vector<std::string> allowed = names_;
     for (std::size_t i = 0; i < names_.size(); ++i)
@@ -133,7 +133,7 @@ class Among {
     }
   }
 
-  /// (x + y)/2, or the root of x y, in the unit of x.
+  /// (x + y)/2, or the square root of x y, in the unit of x.
   Item mixed(std::string const& parameter, Item const& x, Item const& y, bool geometric) {
     auto const first = number_of(parameter, x), second = number_of(parameter, y);
     if (!first || !second) return x;
@@ -157,7 +157,7 @@ class Among {
   struct Number {
     double number;
     std::string unit;  ///< empty: none
-    double one = 1;    ///< of this unit, in SI
+    double one = 1;    ///< value of this unit in SI
     Dimension dimension = dimensions::none;
   };
   std::optional<Number> number_of(std::string const& parameter, Item const& item) {

@@ -1,5 +1,5 @@
-// A law among several ensembles whose parameters differ from species to species: tables and mixing rules. Private to this
-// room.
+// A law among several ensembles with parameters that depend on the species: tables and mixing rules. Private to this
+// module.
 #pragma once
 
 #include <boltzmann/scenario/reading.hpp>
@@ -8,10 +8,10 @@
 
 namespace boltzmann {
 
-/// The tables of [[influences]], one within each ensemble and one between each two, that a table with `among` stands for:
-/// a parameter that is a table by names, { argon = ..., krypton = ..., "argon-krypton" = ... }, is in each of them the
-/// one number for these two; `mixing` says how numbers that are not there follow from those of both. None if something is
-/// wrong, which is a mistake then.
+/// Expands a table with `among` to tables of [[influences]], one within each ensemble and one between each two. A
+/// parameter that is a table by names, { argon = ..., krypton = ..., "argon-krypton" = ... }, is in each of them the
+/// number for these two; `mixing` defines how missing numbers follow from those of both species. Returns nothing if
+/// there is an error, which is then a mistake.
 std::vector<Item> influences_among(Item const& table, Reading& reading);
 
 }  // namespace boltzmann

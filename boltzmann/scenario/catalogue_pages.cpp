@@ -1,4 +1,4 @@
-// What there is, from the tables that the program itself works with.
+// Catalogue pages, generated from the tables that the program itself uses.
 #include <boltzmann/boundaries/box.hpp>
 #include <boltzmann/core/foreign_words.hpp>
 #include <boltzmann/core/quantity_text.hpp>
@@ -31,7 +31,7 @@
 namespace boltzmann {
 namespace {
 
-/// A text that grows.
+/// A page of text under construction.
 struct Page {
   std::string text;
   template <class... Values>
@@ -55,7 +55,7 @@ std::vector<Named> scenarios() {
   for (auto const& name : shipped_scenarios()) all.push_back({name, title_line(name)});
   return all;
 }
-/// Those of a catalogue whose entries have a name and a doc.
+/// The names of a catalogue whose entries have a name and a doc.
 template <auto catalogue>
 std::vector<Named> of() {
   std::vector<Named> all;
@@ -78,7 +78,7 @@ std::vector<Named> unit_list() {
   return all;
 }
 
-/// Tables of a scenario of which each is of one of several kinds, which have the keys.
+/// Tables of a scenario that have one of several kinds, each with its own keys.
 struct TableOfKinds {
   char const *name, *heading, *doc, *key;
   std::vector<Named> (*kinds)();
@@ -95,7 +95,7 @@ std::vector<Named> table_list() {
   return all;
 }
 
-/// Words that keys may be.
+/// Allowed words of keys.
 struct KeyWords {
   char const* what;
   std::vector<Named> (*words)();
@@ -187,7 +187,7 @@ void show_class(Page& page, ParticleClass const& one) {
     page.print("    {:<18} {}\n", quantity.name, name_of(quantity.dimension));
 }
 
-/// " in kg/m^3 or g/cm^3": in which units a quantity may be written.
+/// " in kg/m^3 or g/cm^3": the units in which a quantity may be written.
 std::string in_units(Option const& option) {
   using enum OptionKind::Form;
   auto const& kind = option.kind;
@@ -210,7 +210,7 @@ void show_options(Page& page, OptionTable const& options, void* plain = nullptr)
   }
 }
 
-/// Whether a name stands in a text as a word of its own, or with a component behind it.
+/// True if a name occurs in a text as a separate word, or with a component after it.
 bool reads_name(std::string_view text, std::string_view name) {
   auto const letter = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };
   for (auto at = text.find(name); at != std::string_view::npos; at = text.find(name, at + 1)) {
@@ -221,7 +221,7 @@ bool reads_name(std::string_view text, std::string_view name) {
   return false;
 }
 
-/// "1 eV": its default, or one, in some unit.
+/// "1 eV": its default, or one, in a suitable unit.
 std::string example_of(Parameter const& parameter, int dimension) {
   auto const units = example_units(parameter.dimension.in(dimension));
   std::string value(parameter.default_text.empty() ? "1" : parameter.default_text);
@@ -229,7 +229,7 @@ std::string example_of(Parameter const& parameter, int dimension) {
   return value;
 }
 
-/// The law as a table for a scenario, with examples of its parameters.
+/// The law as a table for a scenario, with example values of its parameters.
 void show_typed(Page& page, LawInfo const& law, int dimension, std::string_view text) {
   page.print("    [[influences]]\n    {} = \"{}\"\n", law.has_energy ? "energy" : "influence", text);
   std::vector<std::string> parameters, vectors;
@@ -249,7 +249,7 @@ void show_typed(Page& page, LawInfo const& law, int dimension, std::string_view 
   page.print("    on = \"...\"\n");
 }
 
-/// Once for all dimensions with one text, as it is in the last of them.
+/// Once if the text is the same in all dimensions, as it is in the last of them.
 void show_typed(Page& page, LawInfo const& law) {
   auto const text = [&](int d) { return law.typed.in[d - 1]; };
   int const least = law.least_dimension, greatest = law.greatest_dimension;
@@ -347,7 +347,7 @@ void show_drawing(Page& page, Drawing const& drawing) {
       drawing.name);
 }
 
-/// Every table of options, and where a user finds it.
+/// Every table of options, and its heading in a scenario.
 void for_each_table(std::function<void(std::string const&, OptionTable const&)> const& function) {
   for (auto const& table : scenario_tables()) function(table.heading, *table.options);
   for (auto const& kind : dissipation_kinds()) function("dissipation " + kind.name, kind.options);
@@ -371,7 +371,7 @@ void show_formulas(Page& page) {
   for (auto const& rule : formula_rules) page.print("  {}\n", rule);
 }
 
-/// The tables that have a key, and the classes that have it as a field; false if none has it.
+/// The tables that have a key, and the classes that have it as a field; false if there are none.
 bool show_key(Page& page, std::string const& key) {
   std::vector<std::string> lines, places;
   auto const add = [&](std::string const& line, std::string const& place) {
@@ -411,7 +411,7 @@ bool show_unit(Page& page, std::string const& name) {
   return true;
 }
 
-/// The only name that differs from this one by capital letters alone; else this one.
+/// The only name that differs from this one only in case; else this one.
 std::string as_listed(std::string const& given) {
   auto const small = [](std::string text) {
     std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
@@ -427,7 +427,7 @@ std::string as_listed(std::string const& given) {
   return found;
 }
 
-/// The nearest of all names; of keys and units only where no name is near.
+/// The most similar of all names; keys and units only if no other name is similar.
 std::string near_name(std::string const& name) {
   std::vector<std::string> names, units, keys;
   for (auto const& section : sections)
@@ -480,7 +480,7 @@ std::string catalogue_page(std::string const& given) {
     show_scenario(page, name);
     return page.text;
   }
-  // Two things may have one name: a law and a loader, a diagnosis and the drawing of what it records.
+  // Two entries may have one name: a law and a loader, or a diagnosis and the drawing of its record.
   bool shown = false;
   auto const next = [&] {
     if (shown) page.print("\n");
@@ -516,7 +516,7 @@ std::string catalogue_page(std::string const& given) {
   if (plain != given && plain != name) {
     try {
       return catalogue_page(plain);
-    } catch (Error const&) {  // told below, by the whole of its name
+    } catch (Error const&) {  // reported below, with the whole name
     }
     auto const near = near_name(plain);
     throw Error("nothing is called '" + given + "'" +

@@ -1,4 +1,4 @@
-// Catalogue pages: lists of what there is (scenarios, classes, laws, ...), and a page of text for each.
+// Catalogue pages: lists of available names (scenarios, classes, laws, ...), and a page of text for each.
 #pragma once
 
 #include <string>
@@ -6,21 +6,21 @@
 
 namespace boltzmann {
 
-/// A name and what it is, one line.
+/// A name and its description in one line.
 struct Named {
   std::string name, doc;
 };
 
 /// "scenarios", "classes", "laws", ...
 std::vector<std::string> listed_kinds();
-/// What there is of a kind. Error naming the kinds if it is none of them.
+/// The names of a kind. Throws Error that lists the kinds if it is unknown.
 std::vector<Named> listed(std::string const& kind);
 
-/// All that is known under a name: a scenario, a class, a law, a key, a unit, ... Error with the nearest name if there is
-/// nothing.
+/// The page of a name: a scenario, a class, a law, a key, a unit, ... Throws Error with the most similar name if it is
+/// unknown.
 std::string catalogue_page(std::string const& name);
 
-/// Where a key may stand, "[run]", "loader random", and as a field "class Coulomb".
+/// The places where a key is allowed, "[run]", "loader random", and as a field "class Coulomb".
 std::vector<std::string> places_of_key(std::string const& key);
 
 }  // namespace boltzmann

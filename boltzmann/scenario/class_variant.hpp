@@ -1,4 +1,4 @@
-// The entry of one class in the table of classes. Private to this room.
+// The entry of one class in the table of classes. Private to this module.
 #pragma once
 
 #include <boltzmann/integrators/methods.hpp>

@@ -1,4 +1,4 @@
-// Classes: the shipped particle classes by name, for code that learns the class at run time.
+// Classes: the shipped particle classes by name, for code that selects the class at run time.
 #pragma once
 
 #include <boltzmann/integrators/integrator.hpp>
@@ -17,22 +17,22 @@ namespace boltzmann {
 struct ClassVariant {
   int dimension;
   std::function<std::unique_ptr<AnyEnsemble>(std::string name, std::size_t size)> make;
-  /// The integrator of an ensemble that make() has made. Error if the class can't be advanced that way.
+  /// The integrator of an ensemble from make(). Throws Error if the class can't be advanced with the method.
   std::function<std::unique_ptr<Integrator>(AnyEnsemble& ensemble, Method method)> integrate;
   std::vector<Field> fields;
   std::size_t row_bytes;  ///< memory of one particle
-  Method usual_method;    ///< the integrator unless told otherwise
-  SourceKind source;      ///< for schemes of fields; without `strengths` they can't act on the class
+  Method usual_method;    ///< the default integrator
+  SourceKind source;      ///< for schemes of fields, which can't act on the class without `strengths`
 };
 
-/// Whether particles are pieces of a continuum: then their ensembles have materials, and need a SmoothScheme.
+/// The kind of continuum, if any: such ensembles have materials, and need a SmoothScheme.
 enum class Matter { none, fluid, solid };
 
 /// A particle class.
 struct ParticleClass {
   std::string name;
   std::string doc;  ///< one line
-  bool classical;   ///< moved by forces (has mass and velocity); else moved along by a flow
+  bool classical;   ///< moved by forces (has mass and velocity); otherwise advected by a flow
   std::vector<ClassVariant> variants;
   Matter matter = Matter::none;
 
@@ -41,11 +41,11 @@ struct ParticleClass {
 
 /// All shipped classes, in the order of the hierarchy.
 std::vector<ParticleClass> const& particle_classes();
-/// nullptr if there is none of that name.
+/// nullptr for an unknown name.
 ParticleClass const* find_class(std::string_view name);
 
 namespace detail {
-// One per source file, so that they compile side by side.
+// One per source file, so that they compile in parallel.
 std::vector<ParticleClass> newton_classes();
 std::vector<ParticleClass> laplace_classes();
 std::vector<ParticleClass> tracer_classes();

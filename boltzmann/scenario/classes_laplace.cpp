@@ -1,4 +1,4 @@
-// Classes whose influence is Green's function of the Laplacian.
+// Classes with the Green function of the Laplacian as their influence.
 #include <boltzmann/particles/laplace.hpp>
 #include <boltzmann/scenario/class_variant.hpp>
 

@@ -1,4 +1,4 @@
-// Classes that forces move.
+// Classes moved by forces.
 #include <boltzmann/core/pack_math.hpp>
 #include <boltzmann/particles/meso.hpp>
 #include <boltzmann/particles/pendulum.hpp>

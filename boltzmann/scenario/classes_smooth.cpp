@@ -1,4 +1,4 @@
-// Classes of continuum mechanics: smooth particles, pieces of fluids and solids.
+// Classes of continuum mechanics: smooth particles of fluids and solids.
 #include <boltzmann/particles/smooth.hpp>
 #include <boltzmann/scenario/class_variant.hpp>
 

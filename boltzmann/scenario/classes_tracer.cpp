@@ -1,4 +1,4 @@
-// Classes that a flow moves: fluid particles and vortices.
+// Classes advected by a flow: fluid particles and vortices.
 #include <boltzmann/particles/dye.hpp>
 #include <boltzmann/particles/spreading.hpp>
 #include <boltzmann/particles/vortex.hpp>

@@ -1,5 +1,5 @@
-// Document: a TOML text as a tree in which every value knows its line and column; overrides; the way back to TOML.
-// Private to this room.
+// Document: a TOML text as a tree in which every value has its line and column; overrides; conversion back to TOML.
+// Private to this module.
 #pragma once
 
 #include <cstddef>
@@ -11,19 +11,20 @@
 
 namespace boltzmann {
 
-/// Where something of a scenario was written: a line and column of the file, or an override of the command line.
+/// The origin of a part of a scenario: a line and column of the file, or an override of the command line.
 struct Place {
   int line = 1, column = 1;
   int override_number = -1;  ///< index in Mistakes' overrides; -1: in the file
 };
 
-/// Collects mistakes, so that a user sees all of them at once.
+/// Collects mistakes, so that users see all of them at once.
 class Mistakes {
  public:
   explicit Mistakes(std::string file) : file_(std::move(file)) {}
 
   void add(Place const& place, std::string message);
-  /// A text such as "--set run.step=0": stands for file, line and column in messages about what it has set.
+  /// Registers a text such as "--set run.step=0". It replaces file, line and column in messages about the values that
+  /// it sets.
   int add_override(std::string text);
   bool none() const { return list_.empty(); }
   std::size_t count() const { return list_.size(); }
@@ -48,10 +49,10 @@ struct Item {
 
   Kind kind = Kind::table;
   Place place;
-  Place end{0, 0, -1};                ///< behind its last character; line 0: it is not a value of the file's text
-  int written = -1;                   ///< which of KeyNotes's values it belongs to, of a table which of its tables
-  std::string text;                   ///< of a text; a date as it was written
-  mutable std::string absolute = {};  ///< of the path of a file that has been read: the stored scenario must find it
+  Place end{0, 0, -1};                ///< the end of the value; line 0: not a value of the file's text
+  int written = -1;                   ///< index in KeyNotes: of a value, or of a table
+  std::string text;                   ///< of a text; a date as written
+  mutable std::string absolute = {};  ///< for the path of a file that has been read: the stored scenario needs it
   std::int64_t integer = 0;
   double number = 0;  ///< of a number, and of an integer
   bool boolean = false;
@@ -76,55 +77,55 @@ struct Entry {
   Item item;
 };
 
-/// The tree of a TOML text. If the text is not TOML (or not UTF-8, or empty) there is one mistake, and the tree is
-/// empty.
+/// Parses a TOML text. If the text is not TOML (or not UTF-8, or empty) there is one mistake, and the tree is empty.
 Item parse_document(std::string const& text, Mistakes& mistakes);
 
-/// The first byte that is no UTF-8, if any.
+/// The first byte that is not UTF-8, if any.
 std::optional<std::size_t> not_utf8(std::string const& text);
 
-/// Control characters in texts and keys are mistakes, but for tabs and ends of lines: they would reach terminals, and
-/// names of files.
+/// Reports control characters in texts and keys as mistakes, except tabs and ends of lines, because they would reach
+/// terminals and file names.
 void check_letters(Item const& item, Mistakes& mistakes);
 
-/// Applies "run.step=0.1", "ensembles.0.mass='63.5 amu'", "ensembles.atoms.mass=2" (`option` is what precedes it in
-/// messages: "--set"). The value is TOML; what is no TOML is a text, so that quotes may be left out.
+/// Applies "run.step=0.1", "ensembles.0.mass='63.5 amu'", "ensembles.atoms.mass=2" (`option` precedes it in messages:
+/// "--set"). The value is TOML; anything else is a text, so that quotes may be omitted.
 void apply_override(Item& document, std::string const& assignment, std::string const& option, Mistakes& mistakes);
 
-/// Sets what stands at "run.step" or "ensembles.atoms.mass" to `value`, which keeps its own place; `place` is that of
-/// the path in messages, and of keys that were not there.
+/// Assigns `value`, with its own place, to the path "run.step" or "ensembles.atoms.mass". `place` is that of the path
+/// in messages, and of created keys.
 void assign(Item& document, std::string const& path, Item value, Place const& place, Mistakes& mistakes);
 
-/// A value as TOML has it; what is no TOML is a text.
+/// Parses a TOML value; text that is not TOML becomes a string.
 Item value_of(std::string const& text, Place const& place);
 
 /// The value at "run.step" or "ensembles.atoms.mass", or nullptr.
 Item const* item_at(Item const& document, std::string const& path);
 
-/// The table that "run.step" stands in, or nullptr, and "step".
+/// The table that contains "run.step", or nullptr, and "step".
 Item const* table_of(Item const& document, std::string const& path);
 std::string key_of(std::string const& path);
 
-/// Takes the key at "run.step" out of its table; nothing happens where there is none.
+/// Removes the key at "run.step" from its table; no-op if it does not exist.
 void leave_out(Item& document, std::string const& path);
 
 /// Sets a value if the key is missing.
 void set_default(Item& document, std::string const& table, std::string const& key, Item value);
 
-/// The tree as TOML. It reads back to the same values, bit for bit.
+/// Writes the tree as TOML. It reads back to the same values, bit for bit.
 std::string write_document(Item const& document);
-/// A value as TOML, tables in braces; a key, in quotation marks if it needs them.
+/// A value as TOML, with inline tables; a key, quoted if necessary.
 std::string write_value(Item const& item);
 std::string write_key(std::string const& key);
 
-/// The lines of a text: where its places are.
+/// The lines of a text, to convert places.
 class Lines {
  public:
   /// Keeps a reference to the text.
   explicit Lines(std::string const& text);
-  /// The byte at a place of the file.
+  /// The byte offset of a place of the file.
   std::size_t offset(Place const& place) const;
-  /// The byte of the end of the line in which a byte is: that of its '\n', or the end of the text.
+  /// The byte offset of the end of a line: that of its '
+  /// ', or the end of the text.
   std::size_t end_of_line(std::size_t offset) const;
 
  private:
@@ -132,7 +133,7 @@ class Lines {
   std::vector<std::size_t> begins_;
 };
 
-/// "a text", "an array", ...: what was found.
+/// "a text", "an array", ...: the type of an item, for messages.
 std::string describe(Item const& item);
 
 }  // namespace boltzmann

@@ -1,4 +1,4 @@
-// Reads formulas of fields, and evaluates them.
+// Parses and evaluates formulas of fields.
 #include <boltzmann/scenario/field_formulas.hpp>
 #include <boltzmann/scenario/reading.hpp>
 
@@ -54,14 +54,15 @@ std::optional<ParticleFormula> read_formula(Item const& item, std::string_view k
 
 namespace {
 
-/// The formulas of one field, all that stands in its item.
+/// The formulas of one field: all in its item.
 class FormulasOfField {
  public:
   FormulasOfField(Item const& table, Entry const& entry, Field const& field, ParticleNames const& names,
                   Reading& reading)
       : table_(table), entry_(entry), field_(field), names_(names), reading_(reading) {}
 
-  /// Nothing, and mistakes, if one is wrong. Where some fields are not known yet, formulas are held to those before.
+  /// Returns nothing, and adds mistakes, if one is invalid. While some fields are unknown, formulas may only use
+  /// earlier ones.
   std::optional<FieldFormula> read(std::vector<std::string> const& unknown, bool fields_known) {
     FieldFormula result{field_, {}, item().place};
     auto const count = static_cast<std::size_t>(field_.components);
@@ -107,7 +108,8 @@ class FormulasOfField {
     return true;
   }
 
-  /// Where nothing stands yet, a formula can't use what it gives itself, or what comes after it. Densities come first.
+  /// Before the field has values, a formula can't use its own results, or those of later formulas. Densities come
+  /// first.
   bool comes_after(Entry const& other) const {
     return &other == &entry_ || (other.key != "density" && (entry_.key == "density" || &other > &entry_));
   }
@@ -151,7 +153,7 @@ std::vector<FieldFormula> read_formulas(Section& section, std::vector<Field> con
   }
   Section inner(*table, "formulas", reading.context);
   ParticleNames const names = formula_names(fields, std::max(reading.dimension, 1), reading);
-  // In the order of the file: a formula may use what those before it have set.
+  // In the order of the file, because a formula may use fields set by earlier ones.
   for (auto const& field : fields)
     if (field.name != "position" || with_position) inner.allow(field.name);
   inner.finish();

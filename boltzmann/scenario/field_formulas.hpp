@@ -1,4 +1,4 @@
-// Field formulas: formulas of a scenario, with the particles they are evaluated for. Private to this room.
+// Field formulas: formulas of a scenario and the particles for which they are evaluated. Private to this module.
 #pragma once
 
 #include <boltzmann/laws/formula_law.hpp>
@@ -17,29 +17,29 @@ namespace boltzmann {
 struct Reading;
 class Section;
 
-/// What may stand in formulas for particles with these fields, in the scenario's units.
+/// The names available in formulas for particles with these fields, in the scenario's units.
 ParticleNames formula_names(std::vector<Field> const& fields, int dimension, Reading const& reading);
-/// Of a place in space alone.
+/// The names available for a place in space.
 ParticleNames formula_names(int dimension, Reading const& reading);
 
-/// A mistake at the column of an item where its formula is wrong.
+/// Adds a mistake at the column of an item where its formula is wrong.
 void formula_mistake(Item const& item, std::string_view key, FormulaError const& error, Reading& reading);
 
-/// A formula that stands in an item; a mistake at its column if it is none. `unknown` are fields that have no values
+/// Parses the formula of an item; adds a mistake at the column of an error. `unknown` are fields that have no values
 /// yet.
 std::optional<ParticleFormula> read_formula(Item const& item, std::string_view key, ParticleNames const& names,
                                             std::vector<std::string> const& unknown, Reading& reading);
 
-/// A field by formulas, one for each component, or one that is a vector.
+/// A field given by formulas, one for each component, or one with a vector value.
 struct FieldFormula {
   Field field;
   std::vector<ParticleFormula> components;
   Place place;
 };
-/// Reads formulas = { specific_energy = "...", velocity = ["...", "..."] }: for these fields.
+/// Reads formulas = { specific_energy = "...", velocity = ["...", "..."] } for these fields.
 std::vector<FieldFormula> read_formulas(Section& section, std::vector<Field> const& fields, bool with_position,
                                         std::vector<std::string> const& unknown, Reading& reading);
-/// Gives the particles their values. A mistake, with the particle, if one is not finite.
+/// Evaluates the formulas for the particles. Adds a mistake, with the particle, if a value is not finite.
 bool apply(FieldFormula const& formula, AnyEnsemble& particles, std::vector<std::uint32_t> const& which,
            Reading& reading);
 

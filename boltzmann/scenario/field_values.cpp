@@ -9,7 +9,7 @@
 namespace boltzmann {
 namespace {
 
-/// A field of `count` particles (0: not known), or of the `molecule` particles of each molecule.
+/// A field of `count` particles (0: unknown), or of the `molecule` particles of each molecule.
 std::optional<FieldValue> read_field(Item const& item, Field const& field, std::size_t count, std::size_t molecule,
                                      Reading& reading) {
   ReadContext& context = reading.context;

@@ -1,4 +1,4 @@
-// Other programs' inputs are known by their first bytes or by the words at the beginning of their lines.
+// Recognises input files of other programs by their first bytes or by the first words of their lines.
 #include <boltzmann/scenario/foreign_input.hpp>
 
 #include <fmt/format.h>
@@ -21,7 +21,7 @@ std::string_view trimmed(std::string_view text) {
   return text;
 }
 
-/// Calls it with each of the first lines, trimmed.
+/// Calls a function with each of the first lines, trimmed.
 template <class Function>
 void for_first_lines(std::string_view text, Function const& function) {
   for (int n = 0; n < 2000 && !text.empty(); ++n) {
@@ -31,7 +31,7 @@ void for_first_lines(std::string_view text, Function const& function) {
   }
 }
 
-/// How many lines begin with one of these words and are not an assignment, or are one if `assigned`.
+/// The number of lines that begin with one of these words and are not an assignment, or are one if `assigned`.
 template <std::size_t n>
 int lines_of(std::string_view text, std::array<std::string_view, n> const& words, bool assigned) {
   int count = 0;

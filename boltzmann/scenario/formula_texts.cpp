@@ -1,4 +1,4 @@
-// Reads what formulas of a table may use, its parameters and parts, and says where one is wrong.
+// Reads the parameters and parts that formulas of a table may use, and reports errors at their places.
 #include <boltzmann/core/quantity_text.hpp>
 #include <boltzmann/scenario/field_formulas.hpp>
 #include <boltzmann/scenario/reading.hpp>
@@ -17,7 +17,7 @@ bool is_formula_name(std::string_view name) {
 
 namespace {
 
-/// The entries of a table, those whose keys can stand in formulas.
+/// The entries of a table whose keys are valid names in formulas.
 std::vector<Entry const*> named_entries(Section& section, char const* key, char const* example, Reading& reading) {
   std::vector<Entry const*> entries;
   Item const* table = section.find(key);

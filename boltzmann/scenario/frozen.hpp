@@ -1,4 +1,4 @@
-// Frozen: an integrator under which chosen particles of an ensemble stay where they are. Private to this room.
+// Frozen: an integrator that keeps selected particles of an ensemble in place. Private to this module.
 #pragma once
 
 #include <boltzmann/integrators/integrator.hpp>
@@ -12,8 +12,8 @@
 
 namespace boltzmann {
 
-/// Advances all particles but the frozen ones (DEACTIVATE of the 1990 thesis for single particles: the fixed end of the
-/// rod). Others feel them as before; nothing is felt by them, and they are at rest.
+/// Advances all particles except the frozen ones (DEACTIVATE of the 1990 thesis for single particles: the fixed end of
+/// the rod). Frozen particles act on others as before, feel no influences, and are at rest.
 class Frozen final : public Integrator {
  public:
   Frozen(AnyEnsemble& ensemble, std::vector<std::uint32_t> which, std::unique_ptr<Integrator> inner)

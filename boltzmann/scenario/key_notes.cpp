@@ -1,4 +1,4 @@
-// Which values a scenario has, and what is known of those that have been read.
+// Lists the values of a scenario, with the properties noted by their readers.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/quantity_text.hpp>
 #include <boltzmann/scenario/key_notes.hpp>
@@ -9,14 +9,14 @@
 namespace boltzmann {
 namespace {
 
-constexpr std::size_t max_absent = 10'000;  // that a page is told of
+constexpr std::size_t max_absent = 10'000;  // greatest number for a page
 
 bool has_tables(Item const& array) {
   return std::any_of(array.elements.begin(), array.elements.end(),
                      [](Item const& element) { return element.is(Item::Kind::table); });
 }
 
-/// How a path names a table of a list: by its name, if that is a word of its own, or by its number.
+/// The step of a path to a table of a list: its name, if that is a plain word, or its index.
 std::string step_of(Item const& list, std::size_t number) {
   auto const name_of = [&](std::size_t i) {
     Entry const* entry = list.elements[i].find("name");
@@ -31,7 +31,7 @@ std::string step_of(Item const& list, std::size_t number) {
   return good ? name : std::to_string(number);
 }
 
-/// What stands behind the value on its line.
+/// The comment after the value on its line.
 std::string comment_behind(std::string_view rest) {
   char quote = 0;
   for (std::size_t i = 0; i < rest.size(); ++i) {

@@ -1,5 +1,5 @@
-// Notes on keys: while a scenario is read, which of its values somebody has asked for and what they may be, and which
-// other keys its tables could have. Private to this room.
+// Notes on keys: collected while a scenario is read. They record the values that are read and what is allowed there,
+// and the further keys that its tables accept. Private to this module.
 #pragma once
 
 #include <boltzmann/core/options.hpp>
@@ -14,35 +14,35 @@
 
 namespace boltzmann {
 
-/// What is said of a key that a table may have.
+/// The documentation of a key that a table may have.
 struct ToldKey {
   Option option;
-  std::string value;                   ///< its default as TOML; empty: the option says it in words
-  std::optional<Dimension> dimension;  ///< of its numbers in this space; nothing: it is not known
+  std::string value;                   ///< its default as TOML; empty: the option describes it in words
+  std::optional<Dimension> dimension;  ///< of its numbers in this space; nothing: unknown
 };
 
 class KeyNotes {
  public:
-  /// Numbers the values of the document, which has been read from the text and may have been changed since. What keys
-  /// mean, and those that are absent, are kept if they are wanted.
+  /// Numbers the values of the document, which was parsed from the text and may have been changed since. Absent keys
+  /// and documentation are stored on request.
   KeyNotes(Item& document, std::string const& text, bool with_keys);
 
   bool with_keys() const { return with_keys_; }
 
-  // What a reader wants of a value; if several have read it, the last one counts. Of an array that is told of its
-  // elements.
+  // Notes the type of a value that has been read; if several readers have read it, the last one counts. For an array,
+  // notes that of its elements.
   void number(Item const& item, Dimension dimension, NumberRange const& range, UnitSystem const& units);
   void integer(Item const& item, std::int64_t low, std::int64_t high);
   void word(Item const& item, std::vector<std::string> const& words);
   void plain(Item const& item, std::string_view kind);  ///< "text", "boolean"
-  /// What has been read must be in a smaller range.
+  /// Restricts the range of a value that has been read.
   void narrow(Item const& item, NumberRange const& range);
-  /// A key that is allowed in a table of the document, whether it is there or not.
+  /// Notes a key that is allowed in a table of the document, present or not.
   void key(Item const& table, ToldKey const& key, UnitSystem const& units);
 
-  /// Those that have been read, in the order of the document.
+  /// The values that have been read, in the order of the document.
   std::vector<ScenarioParameter> parameters() const;
-  /// Keys that could be there, table by table in the order of the document.
+  /// Absent keys, table by table in the order of the document.
   std::vector<ScenarioParameter> absent() const;
 
  private:
@@ -52,22 +52,22 @@ class KeyNotes {
   struct Value {
     ScenarioParameter parameter;
     bool array = false;
-    bool limited = false;  ///< `low` and `high` are those of a reader
-    double factor = 1;     ///< from the base to `unit`
+    bool limited = false;  ///< true if a reader has set `low` and `high`
+    double factor = 1;     ///< factor from the base to `unit`
   };
-  /// A table, and the keys that it does not have.
+  /// A table, and its absent keys.
   struct Table {
     std::string path, group;
     std::vector<ScenarioParameter> absent;
   };
-  /// The value that an item belongs to; nullptr: it is a table, or not of the document.
+  /// The value of an item; nullptr if it is a table, or not part of the document.
   Value* find(Item const& item);
-  /// The same, which is of that kind then.
+  /// The same, and sets its kind.
   Value* find(Item const& item, std::string_view kind);
-  /// A number of any kind; `text`: of one that is written with a unit.
+  /// Notes a number of any kind; `text`: written with a unit.
   static void measure(Value& value, std::string const& text, Dimension dimension, NumberRange const& range,
                       UnitSystem const& units);
-  /// Elements of an array may have limits of their own: what holds for all.
+  /// Elements of an array may have different limits: stores those that hold for all.
   static void limit(Value& value, double low, double high, bool low_excluded);
 
   std::string const& text_;

@@ -1,4 +1,4 @@
-// Law binding: from the word of a law and its parameters to the law with its kernels. Private to this room.
+// Law binding: creates a law with its kernels from its name and parameters. Private to this module.
 #pragma once
 
 #include <boltzmann/core/kernel_dispatch.hpp>
@@ -27,7 +27,7 @@ struct ExternalChoice {
   ExternalKernels kernels;
 };
 
-/// A law with its parameters, and the kernels that can run it.
+/// A law with its parameters, and its kernels.
 struct BoundLaw {
   PairScheme::LawPointer law;
   PairScheme::LawTraits traits;
@@ -37,8 +37,8 @@ struct BoundLaw {
   std::vector<ExternalChoice> externals;
 };
 
-/// True if rows of the ensemble can be read as rows of P: every field of P is there under its name, with its dimension,
-/// at the same offset. A law that needs P then runs on the ensemble's class, whatever else that has.
+/// True if rows of the ensemble can be read as rows of P: it has every field of P with the same name, dimension and
+/// offset. A law for P then runs on the ensemble's class, whatever its other fields.
 template <class P>
 bool has_rows(AnyEnsemble const& ensemble) {
   if (ensemble.dimension() != P::dimension) return false;
@@ -50,7 +50,7 @@ bool has_rows(AnyEnsemble const& ensemble) {
   }
   return true;
 }
-/// The same, and influences are those of P.
+/// The same, and influences are also those of P.
 template <class P>
 bool has_layout(AnyEnsemble const& ensemble) {
   return has_rows<P>(ensemble) && ensemble.influence_size() == sizeof(typename P::Influence) / sizeof(double);
@@ -70,7 +70,7 @@ void bind_kernels(BoundLaw& bound, LawRows<Layouts<On<P, Q>...>, Layouts<Connect
 }
 }  // namespace detail
 
-/// The law with its kernels for these rows, in the instruction set in use.
+/// The law with its kernels for these rows, for the selected instruction set.
 template <class Rows, class Law>
 BoundLaw bind_law(Law const& law) {
   BoundLaw bound{PairScheme::keep(OfScenario<Law>{law}),

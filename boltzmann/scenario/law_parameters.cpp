@@ -1,4 +1,4 @@
-// Parameters of laws and materials: read from a section, and told to users.
+// Parameters of laws and materials: reading, and documentation.
 #include <boltzmann/core/quantity_text.hpp>
 #include <boltzmann/scenario/law_parameters.hpp>
 #include <boltzmann/scenario/reading.hpp>
@@ -18,14 +18,14 @@ bool has_default(Parameter const& parameter, bool reduced_base) {
   return parameter.unlimited || (!parameter.default_text.empty() && there);
 }
 
-/// "1 eV": in a unit of about the size of what is one in the base.
+/// "1 eV": in a unit close to the unit of the base.
 std::string example_of(Parameter const& parameter, bool is_vector, int space, UnitSystem const& base) {
   if (is_vector) return space == 3 ? "[0, 0, -1]" : "[0, -1]";
   Dimension const dimension = parameter.dimension.in(space);
   auto const units = example_units(dimension);
   std::string const number = parameter.range.contains(1) ? "1" : "1.4";
   if (base.is_reduced()) return number;
-  auto const own = base.display(dimension).unit;  // that of the scenario, where it has a name
+  auto const own = base.display(dimension).unit;  // that of the scenario, if it has a name
   try {
     if (auto const one = parse_quantity("1 " + own); one.has_unit && one.dimension == dimension)
       return fmt::format("\"{} {}\"", number, own);
@@ -120,7 +120,7 @@ std::optional<ParameterValues> read_parameters(Section& section, std::string_vie
                                      parameter.unlimited ? std::numeric_limits<double>::infinity()
                                                          : in_units(parameter.default_text, dimension, units))});
     } else if (space == 0 && (is_vector || parameter.dimension.by_space != 0)) {
-      continue;  // what it may be is not known
+      continue;  // its range is unknown
     } else if (is_vector || (parameter.vector && item->is(Item::Kind::array))) {
       if (auto const value = read_vector(*item, name, is_vector ? space : 1, dimension, reading.context))
         values.push_back({name, *value});

@@ -1,4 +1,4 @@
-// Parameters of laws and materials by name: between a scenario, which names them, and the structs that have them.
+// Parameters of laws and materials by name: the connection between a scenario and the structs.
 #pragma once
 
 #include <boltzmann/core/options.hpp>
@@ -13,16 +13,16 @@
 
 namespace boltzmann {
 
-/// Values by name, in the simulation's units; a vector has one number for each dimension.
+/// Values by name, in the simulation's units; a vector has one number per dimension.
 using ParameterValues = std::vector<std::pair<std::string, std::vector<double>>>;
 
-/// Error if there is none of that name.
+/// Throws Error for an unknown name.
 std::vector<double> const& value_of(ParameterValues const& values, std::string_view name);
 
-/// What users are told of them.
+/// The documentation of parameters.
 OptionTable options_of(std::vector<Parameter> const& parameters);
 
-/// Those of a law or a material.
+/// The parameters of a law or a material.
 template <class T>
 std::vector<Parameter> parameters_of() {
   std::vector<Parameter> all;
@@ -44,7 +44,7 @@ void give(std::vector<double> const& value, Vector<D>& member) {
 }
 }  // namespace detail
 
-/// Error if one is missing.
+/// Throws Error if one is missing.
 template <class T>
 void set_parameters(T& law, ParameterValues const& values) {
   if constexpr (requires { T::parameters(); })

@@ -1,6 +1,6 @@
-// Law rows: the classes that each law of a scenario is compiled for. It runs on every class that has their fields at
-// the same places of its rows, however long these are. Types only: kernel units and ordinary units both read it.
-// Private to this room.
+// Law rows: the classes for which each law of a scenario is compiled. It runs on every class that has their fields at
+// the same offsets of its rows, of any length. Types only, for both kernel units and ordinary units. Private to this
+// module.
 #pragma once
 
 #include <boltzmann/core/instruction_set.hpp>
@@ -22,11 +22,11 @@ struct On {};
 template <class... P>
 struct Layouts {};
 
-/// What a law runs on: pairs, fixed connections, something from outside.
+/// The rows of a law: for pairs, fixed connections, and external influences.
 template <class Pairs, class Connections = Layouts<>, class Externals = Layouts<>>
 struct LawRows {};
 
-/// How many pairs of classes a law runs on.
+/// The number of pairs of classes for which a law is compiled.
 template <class Rows>
 inline constexpr std::size_t pair_layouts = 0;
 template <class... Pair, class Connections, class Externals>
@@ -54,7 +54,7 @@ using PendulumRows = Among<Pendulum<1>>;
 using OnPendulum = Outside<Pendulum<1>>;
 using OnTethered = Outside<Tethered<1>, Tethered<2>, Tethered<3>>;
 
-/// Vortices carry each other and test particles.
+/// Vortices advect each other and test particles.
 using VortexRows = LawRows<Layouts<On<Vortex<2>, Vortex<2>>, On<Tracer<2>, Vortex<2>>, On<Diffusive<2>, Vortex<2>>,  //
                                    On<Inviscid<3>, Vortex<3>>, On<Vortex<3>, Vortex<3>>, On<Tracer<3>, Vortex<3>>>,
                            Layouts<Vortex<2>, Diffusive<2>, Inviscid<3>, Vortex<3>>>;
@@ -63,7 +63,7 @@ using ExchangeRows = Among<Diffusive<2>, Diffusive<3>>;
 template <int D>
 using OnFlowIn = std::conditional_t<D == 3, Outside<Tracer<D>, Inviscid<3>>,
                                     std::conditional_t<D == 2, Outside<Tracer<D>, Diffusive<2>>, Outside<Tracer<D>>>>;
-/// Those of them that are not stretched.
+/// Those of them without vortex stretching.
 template <int D>
 using OnCarriedIn = std::conditional_t<D == 2, OnFlowIn<2>, Outside<Tracer<D>>>;
 
@@ -72,13 +72,13 @@ using OnSmooth = Outside<Smooth<1>, Smooth<2>, Smooth<3>, Solid<1>, Solid<2>, So
 template <int D>
 using OnSmoothIn = Outside<Smooth<D>, Solid<D>>;
 
-/// A law of a scenario, which runs on whatever classes have the fields that it needs.
+/// The rows of a law of a scenario; it runs on all classes that have the required fields.
 template <class Law>
 struct OfScenario : Law {
   static constexpr bool on_longer_rows = true;
 };
 
-/// The law that a shipped one obeys: itself, or what its law() gives.
+/// The law of a shipped one: itself, or the result of its law().
 template <class Law>
 auto law_of(Law const& law) {
   if constexpr (requires { law.law(); })
@@ -96,7 +96,7 @@ struct LawKernels {
   ExternalKernels const* externals;
 };
 
-/// Kernel units define it for the laws of scenarios (law_kernels.hpp), once for each instruction set.
+/// Defined by kernel units for the laws of scenarios (law_kernels.hpp), once per instruction set.
 template <InstructionSet set, class Law, class Rows>
 LawKernels law_kernels();
 

@@ -1,4 +1,4 @@
-// From the word of a law to its kernels, and why a class can't have it.
+// Selects the kernels of a law by name, and explains why a class can't have it.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/quantity_text.hpp>
 #include <boltzmann/scenario/law_binding.hpp>
@@ -10,7 +10,7 @@
 namespace boltzmann {
 namespace {
 
-/// Why particles of this ensemble can't take the part of `least` in the law; empty if nothing is known against it.
+/// Why particles of this ensemble lack a field of `least` that the law needs; empty if they do not.
 std::string missing(LawInfo const& law, std::string_view least, AnyEnsemble const& ensemble, bool is_target) {
   ParticleClass const* wanted = find_class(least);
   ParticleClass const* actual = find_class(ensemble.class_name());
@@ -21,7 +21,7 @@ std::string missing(LawInfo const& law, std::string_view least, AnyEnsemble cons
                : fmt::format("law '{}' exists in {}D to {}D; the box is {}D", law.name, law.least_dimension,
                              law.greatest_dimension, dimension);
   if (!wanted) return "";
-  // Classes that a scenario derives are not in the table.
+  // Classes derived by a scenario are not in the table.
   bool const classical = actual ? actual->classical : ensemble.find_field("mass") && ensemble.find_field("velocity");
   if (is_target && wanted->classical != classical)
     return fmt::format("law '{}' gives {}; particles of class {} are moved by {}", law.name,
@@ -51,7 +51,7 @@ void require(LawInfo const& law, AnyEnsemble const& ensemble, bool is_target) {
   if (!why.empty()) throw Error(why);
 }
 
-/// Lets all pairs of a law be summed so. Error if it can't be.
+/// Enables single precision for sums over all pairs of a law. Throws Error if it is not available.
 void sum_in_single_precision(LawInfo const& law, BoundLaw& bound, double cutoff) {
   auto const& kernels =
       for_instruction_set([](auto set) -> SingleKernels const& { return single_kernels<decltype(set)::value>(); });
@@ -108,7 +108,7 @@ void install_pairs(PairScheme& scheme, LawInfo const& law, ParameterValues const
   BoundLaw bound = law.bind(parameters, a.dimension());
   if (single) sum_in_single_precision(law, bound, cutoff);
   if (use == LawUse::between && !bound.one_way) {
-    // Both ways or none: the second must be possible before the first is installed.
+    // Both directions or none: check the second before the first is installed.
     require(law, a, true);
     require(law, b, false);
     require(law, b, true);

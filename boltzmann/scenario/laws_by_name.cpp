@@ -1,4 +1,4 @@
-// The laws of scenarios: each as its struct describes it, made from its parameters, with the rows on which it runs.
+// The laws of scenarios, with the description of each struct, its construction from parameters, and its rows.
 #include <boltzmann/scenario/law_binding.hpp>
 #include <boltzmann/scenario/laws.hpp>
 #include <boltzmann/schemes/smooth/force_on.hpp>
@@ -22,7 +22,7 @@ LawInfo describe(char const* header, char const* type, BoundLaw (*bind)(Paramete
           bind};
 }
 
-/// Of the struct that is for the space's dimension; with rows for no other, none.
+/// The rows of the struct for the space's dimension; none if it has rows for other dimensions only.
 template <template <int> class Law, template <int> class Rows, template <class> class As, int... D>
 BoundLaw bind_in(ParameterValues const& values, int dimension) {
   BoundLaw bound{};

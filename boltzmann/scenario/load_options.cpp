@@ -1,4 +1,4 @@
-// The members of loaders with their keys, and which of them each kind has.
+// The options of loaders with their keys, and the options of each kind.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/once.hpp>
 #include <boltzmann/loaders/particle_file.hpp>

@@ -1,4 +1,4 @@
-// Load options: the kinds of loaders that scenarios name, with their keys.
+// Load options: the kinds of loaders that scenarios can name, with their keys.
 #pragma once
 
 #include <boltzmann/core/options.hpp>
@@ -13,11 +13,11 @@
 
 namespace boltzmann {
 
-/// What is a plain number, word or place; counts, lists of places and formulas are read by code.
+/// Members for plain numbers, words and places. Counts, lists of places and formulas are read by code.
 struct LoadOptions {
   Lattice lattice = Lattice::square;
   std::optional<double> spacing, number_density, lattice_constant;
-  double jitter = 0;  ///< a part of the spacing
+  double jitter = 0;  ///< fraction of the spacing
   double minimum_distance = 0;
   std::optional<double> packing_fraction;
   std::string axis = "x", component;
@@ -42,11 +42,11 @@ struct LoadOptions {
 
 struct LoadKind {
   std::string name, doc;
-  bool counted;  ///< the ensemble says the number of particles
+  bool counted;  ///< the ensemble sets the number of particles
   OptionTable options;
 };
 std::vector<LoadKind> const& load_kinds();
-/// Of a wave that is added to velocities: their amplitude and component, and the wave.
+/// Options of a wave that is added to velocities: their amplitude and component, and the wave.
 OptionTable const& ripple_options();
 
 }  // namespace boltzmann

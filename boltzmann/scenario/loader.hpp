@@ -1,4 +1,4 @@
-// Loader: reads the table that says where the particles of an ensemble are, and puts them there. Private to this room.
+// Loader: reads the table of initial positions of an ensemble, and places its particles. Private to this module.
 #pragma once
 
 #include <boltzmann/files/trajectory.hpp>
@@ -18,7 +18,7 @@
 
 namespace boltzmann {
 
-/// How the particles of one ensemble are put in their places.
+/// Places the particles of one ensemble.
 class Loader {
  public:
   Loader(Item const& table, std::string ensemble, Reading& reading, ClassVariant const* variant)
@@ -28,30 +28,30 @@ class Loader {
         section_(table, "load", reading.context),
         place_(table.place) {}
 
-  /// Reads the table. `number` is what the ensemble says (0: what can't be read, unless it says that there is `nobody`);
-  /// afterwards count() particles are to be made.
+  /// Reads the table. `number` is that of the ensemble (0: unreadable, unless the ensemble is explicitly empty).
+  /// Afterwards count() particles must be created.
   bool read(std::optional<std::size_t> number, Place const& number_place, bool nobody);
   std::size_t count() const { return count_; }
-  /// The space (length, area, volume) that each particle has, of lattices; nothing otherwise.
+  /// For lattices, the length, area or volume per particle; nothing otherwise.
   std::optional<double> volume() const { return volume_; }
-  /// Error if the lower rooms refuse.
+  /// Throws Error if the loader fails.
   void load(AnyEnsemble& particles);
-  /// How the same particles are placed at a distance from others; null: they have places of their own.
+  /// A function that places the same particles at a distance from others; null: they have fixed places.
   PlaceAgain place_again() const;
 
-  /// Whether loading sets a field.
+  /// True if loading sets a field.
   bool sets(std::string_view field) const;
   bool reads_file() const { return kind_ && kind_->name == "file"; }
-  /// Of a file without masses: those of the elements, in the order of the particles. Empty if one is not known.
+  /// For a file without masses: those of the elements, in the order of the particles. Empty if one is unknown.
   std::vector<double> element_masses() const;
   std::string file_name() const;
-  /// What of a file these particles did not get, and what was assumed; `given`: fields that the scenario gives.
+  /// Notes on unused parts of a file and on assumptions; `given`: fields that the scenario sets.
   std::vector<std::string> notes(AnyEnsemble const& particles, std::vector<std::string> const& given) const;
-  /// Counts the particles of the file that this ensemble takes.
+  /// Counts the particles of the file that this ensemble uses.
   void count_species_taken() const;
 
  private:
-  /// How many places a kind has itself (0: as many as there are particles), and how it fills them.
+  /// For a kind of loader: its own number of places (0: the number of particles), and the function that fills them.
   struct Way {
     std::string_view kind;
     double (Loader::*read)();
@@ -69,7 +69,7 @@ class Loader {
   void read_corners();
   void read_where();
   bool is_wanted(double const* place);
-  /// A lattice that fills the block from low to high (without them the box), where a formula says so.
+  /// A lattice that fills the block from low to high (default: the box) where a formula is true.
   double read_fill();
   double read_random();
   Box part_of_box() const;
@@ -97,7 +97,7 @@ class Loader {
   double read_frame();
   void load_frame(AnyEnsemble& particles);
 
-  std::string ensemble_;  // what it is called
+  std::string ensemble_;  // name of the ensemble
   Reading& reading_;
   ClassVariant const* variant_;
   bool spacing_known_ = false, corners_read_ = false;
@@ -119,12 +119,12 @@ class Loader {
   std::size_t stored_frame_ = 0;
 };
 
-/// Whether this machine has the memory for so many particles of a class; if not, a mistake.
-/// Why there can't be so many particles with rows of this size, "... particles would need ..."; empty if there can.
+/// Adds a mistake if this machine lacks the memory for this number of particles of a class. Returns the reason, "...
+/// particles would need ...", for rows of this size; empty if it suffices.
 std::string too_many(double count, std::size_t row_bytes);
 bool fits_memory(double count, ClassVariant const& variant, Place const& place, Reading& reading);
 
-/// A wave to be added to the velocities.
+/// A wave that is added to the velocities.
 VelocityRipple read_velocity_ripple(Item const& item, Reading& reading);
 
 }  // namespace boltzmann

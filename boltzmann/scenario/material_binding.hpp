@@ -1,4 +1,5 @@
-// Material binding: from an equation of state to its kernels for fluids and for solids. Private to this room.
+// Material binding: creates a material with its kernels for fluids and for solids from an equation of state. Private to
+// this module.
 #pragma once
 
 #include <boltzmann/laws/materials/elastic.hpp>
@@ -31,7 +32,7 @@ BoundMaterial bound_in(M const& material, int dimension) {
           kept};
 }
 
-/// With fluxes only where there are some: without, gradients need not be found.
+/// Omits fluxes if all are zero, so that gradients need not be computed.
 template <template <int, class> class P, class M>
 BoundMaterial bound_with_fluxes(M const& material, ParameterValues const& fluxes, int dimension) {
   Newtonian<M> viscous{material};
@@ -40,7 +41,7 @@ BoundMaterial bound_with_fluxes(M const& material, ParameterValues const& fluxes
   return none ? bound_in<P>(material, dimension) : bound_in<P>(viscous, dimension);
 }
 
-// One per source file, so that they compile side by side.
+// One per source file, so that they compile in parallel.
 BoundMaterial bind_fluid(EquationOfState const& state, MaterialChoice const& choice, int dimension);
 BoundMaterial bind_solid(EquationOfState const& state, MaterialChoice const& choice, int dimension);
 

@@ -1,4 +1,4 @@
-// The catalogue of materials: as their structs describe them, and how one is made from its parameters.
+// The catalogue of materials, with the description of each struct and its construction from parameters.
 #include <boltzmann/scenario/material_binding.hpp>
 
 namespace boltzmann {

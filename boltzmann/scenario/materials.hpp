@@ -1,4 +1,4 @@
-// Materials: the shipped materials by name, for code that learns them at run time.
+// Materials: the shipped materials by name, for code that selects them at run time.
 #pragma once
 
 #include <boltzmann/laws/materials/formula_material.hpp>
@@ -15,9 +15,9 @@
 
 namespace boltzmann {
 
-/// A material: what its struct says of itself, and where it stands.
+/// A material: the description of its struct, and its header.
 struct MaterialInfo : MaterialText {
-  bool barotropic;     ///< no temperature, no energy of its own: both follow from the density
+  bool barotropic;     ///< without independent temperature and energy: both follow from the density
   bool tabulated;      ///< has `points` or `file`
   bool typed;          ///< has `pressure`, and may have `temperature` and `sound_speed`
   std::string header;  ///< for programs
@@ -25,21 +25,21 @@ struct MaterialInfo : MaterialText {
   std::vector<Parameter> parameters;
 };
 
-/// Those of shipped_materials.list.
+/// The materials of shipped_materials.list.
 std::vector<MaterialInfo> const& material_catalogue();
 /// nullptr if there is none of that name.
 MaterialInfo const* find_material(std::string_view name);
 
-/// What viscosity and conduction add to any material, and strength to one of a solid.
+/// Parameters of viscosity and conduction for any material, and of strength for a solid.
 std::vector<Parameter> const& flux_parameters();
 std::vector<Parameter> const& elastic_parameters();
 
-/// What a scenario says about a material: values of all its parameters.
+/// The material of a scenario: values of all its parameters.
 struct MaterialChoice {
   MaterialInfo const* info = nullptr;
   ParameterValues parameters, fluxes, elastic;
-  std::optional<PressureTable> table = {};       ///< of one that is tabulated
-  std::optional<FormulaMaterial> formulas = {};  ///< of one that is typed
+  std::optional<PressureTable> table = {};       ///< of a tabulated material
+  std::optional<FormulaMaterial> formulas = {};  ///< of a typed material
 };
 
 /// A material with its kernels for a class.
@@ -48,8 +48,8 @@ struct BoundMaterial {
   std::shared_ptr<void const> material;
 };
 
-/// For fluids (class Smooth) and solids (class Solid). Error, "ideal-gas: specific_heat = 0 must be positive", if the
-/// numbers don't go together.
+/// For fluids (class Smooth) and solids (class Solid). Throws Error, "ideal-gas: specific_heat = 0 must be positive",
+/// for an invalid combination of numbers.
 BoundMaterial bind_material(MaterialChoice const& choice, Matter matter, int dimension);
 
 }  // namespace boltzmann

@@ -1,4 +1,4 @@
-// What a command line changes in a scenario.
+// Changes of a scenario by the command line.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +9,7 @@
 
 namespace boltzmann {
 
-/// What the command line changes in a scenario.
+/// Changes of a scenario by the command line.
 struct Overrides {
   std::vector<std::string>
       set;  ///< "key.path=value", as TOML would have it ("run.step=0.1", "ensembles.0.mass='63.5 amu'")
@@ -17,12 +17,12 @@ struct Overrides {
   std::optional<std::uint64_t> seed;
   std::optional<int> threads;
   std::vector<std::string> vary = {};         ///< "key.path=[values]": instead of what [sweep] varies
-  std::optional<std::int64_t> seeds = {};     ///< of each value
-  std::optional<std::size_t> sweep_run = {};  ///< the scenario of this run of its [sweep], which goes away
-  bool no_sweep = false;                      ///< the scenario as if it had no [sweep]
-  bool by_page = false;  ///< `set` comes from a page: it may name what [sweep] varies, since it edits the file's own
-                         ///< values, and only files in the folder of the scenario. The page is told of all keys
-  std::vector<std::string> without = {};  ///< keys by their paths: the scenario as if they were not there
+  std::optional<std::int64_t> seeds = {};     ///< for each value
+  std::optional<std::size_t> sweep_run = {};  ///< load the scenario of this run of its [sweep], without [sweep]
+  bool no_sweep = false;                      ///< ignore [sweep]
+  bool by_page = false;  ///< `set` comes from a page: it may change keys that [sweep] varies, since it edits the file's
+                         ///< own values, and name only files in the folder of the scenario. The page receives all keys
+  std::vector<std::string> without = {};  ///< paths of keys to ignore
 };
 
 }  // namespace boltzmann

@@ -1,4 +1,4 @@
-// What a list of scenarios shows of one, and a scenario's text with other values in it.
+// Outlines of scenarios for lists, and replacement of values in a scenario's text.
 #include <boltzmann/core/quantity_text.hpp>
 #include <boltzmann/loaders/lattice.hpp>
 #include <boltzmann/scenario/document.hpp>
@@ -30,7 +30,7 @@ std::string text_in(Item const& table, std::string_view key) {
   return item && item->is(Item::Kind::text) ? item->text : "";
 }
 
-/// Plain numbers, for each axis; nothing if they are something else.
+/// Plain numbers, one per axis; nothing if the item is something else.
 std::optional<std::array<double, 3>> numbers_in(Item const& table, std::string_view key, int dimension) {
   Item const* item = value_in(table, key);
   if (!item || item->elements.size() != static_cast<std::size_t>(dimension) || dimension > 3) return std::nullopt;
@@ -77,7 +77,7 @@ std::optional<double> count_of(Item const& ensemble, Item const& box, int dimens
   return count * (lattice == "fcc" || lattice == "hcp" ? 4 : lattice == "bcc" ? 2 : lattice == "diamond" ? 8 : 1);
 }
 
-/// In SI, or the plain number; which of them is told.
+/// The number in SI, or the plain number; the flag distinguishes them.
 std::optional<std::pair<double, bool>> size_of(Item const* item) {
   if (!item) return std::nullopt;
   if (item->is_number()) return std::pair{item->number, false};
@@ -112,7 +112,7 @@ bool has_header(Item const& item) {
          !item.elements.front().inlined;
 }
 
-/// Where a new key of a table is put, and what stands before it.
+/// The position for a new key of a table, and the text before it.
 Change behind_last(Item const& table, bool top, Lines const& lines) {
   Item const* last = nullptr;
   for (auto const& entry : table.entries)
@@ -130,7 +130,7 @@ Change behind_last(Item const& table, bool top, Lines const& lines) {
   return {at, at, "\n"};
 }
 
-/// A key and its value go: with the line, or with a comma in braces.
+/// Removes a key and its value: the whole line, or with a comma in an inline table.
 Change without(Item const& table, std::string const& key, std::string const& text, Lines const& lines) {
   Entry const& entry = *table.find(key);
   std::size_t begin = lines.offset(entry.place), end = lines.offset(entry.item.end);
@@ -144,7 +144,7 @@ Change without(Item const& table, std::string const& key, std::string const& tex
   return {text[before] == ',' ? before : begin, end, ""};
 }
 
-/// A value as it can stand in the text: what somebody has written, if that is one value of TOML on one line.
+/// A value for the text: as the user has written it, if that is a single TOML value on one line.
 std::string as_toml(std::string const& value) {
   Item const item = value_of(value, {});
   bool const quoted = item.is(Item::Kind::text) && item.text == value;  // what is no TOML is a text
@@ -179,7 +179,7 @@ ScenarioOutline outline_scenario(std::string const& text, std::string const& fil
       Item const* panels = value_in(body, "panels");
       auto const shape = text_in(body, "shape");
       if (shape == "polygon" || shape == "file" || (panels && !(panels->number > 0 && panels->number < 1e6)))
-        return outline;  // its corners have panels, too
+        return outline;  // bodies also have panels
       count += panels ? panels->number : BodyOptions{}.panels;
     }
   outline.particles = static_cast<std::size_t>(count);
@@ -227,7 +227,7 @@ std::string with_values(std::string const& text, ScenarioValues const& values) {
     at = std::max(at, change.end);
   }
   result += text.substr(at);
-  // Whatever the layout: it must say what was meant.
+  // Check that the new text, whatever its layout, has the intended value.
   Item const now = parse_document(result, mistakes);
   if (!mistakes.none() || write_document(now) != write_document(wanted))
     throw Error("these values can't be put into the text of the scenario as it stands");

@@ -1,5 +1,5 @@
-// Parameters of a scenario: the values of its text that can be changed, with what each may be; and what a list of
-// scenarios shows of one, found from its text alone.
+// Parameters of a scenario: the values of its text that can be changed and their allowed ranges; and the outline of a
+// scenario for a list, from its text only.
 #pragma once
 
 #include <limits>
@@ -10,46 +10,47 @@
 
 namespace boltzmann {
 
-/// A value of a scenario's text, and what the reader that has read it allows there; or a key that one of its tables
-/// could have, too. There are none of [sweep].
+/// A value of a scenario's text, and the values that its reader allows there; or an absent key that one of its tables
+/// accepts. Keys of [sweep] are not included.
 struct ScenarioParameter {
-  std::string path;   ///< as --set takes it: "run.step", "ensembles.atoms.mass", "influences.0.depth"
-  std::string group;  ///< the table at the top that it stands in: "run", "ensembles.atoms"; empty: at the top itself
+  std::string path;   ///< as in --set: "run.step", "ensembles.atoms.mass", "influences.0.depth"
+  std::string group;  ///< the top-level table: "run", "ensembles.atoms"; empty: none
   std::string name;   ///< the rest of the path: "step", "load.spacing"
-  /// "quantity", "integer", "number", "word", "boolean", "text" or "vector" (an array of these); of a key that is
-  /// absent also "any": `doc` says what is allowed.
+  /// "quantity", "integer", "number", "word", "boolean", "text" or "vector" (an array of these); for an absent key also
+  /// "any", with the allowed values in `doc`.
   std::string kind;
-  std::string value;  ///< as TOML, as it was written; of a key that is absent its default, empty: `otherwise` says it
-  std::string unit;   ///< in which the base shows such a quantity; empty: a pure number, or none
-  std::string base_unit;  ///< what a plain number counts there: "amu", "3.273 fs"; empty: a pure number, or none
-  std::vector<std::string> units;  ///< some that it may be written in, that of the value first
-  /// Of a number, in `unit`; of a vector those of its elements. Not all limits are known without the other values.
+  std::string value;      ///< as TOML, as written; for an absent key its default, or empty if `otherwise` describes it
+  std::string unit;       ///< display unit of the base; empty: a pure number, or not a number
+  std::string base_unit;  ///< the unit of a plain number: "amu", "3.273 fs"; empty: a pure number, or not a number
+  std::vector<std::string> units;  ///< possible units, that of the value first
+  /// Limits of a number, in `unit`; of a vector, those of its elements. Some limits are unknown without the other
+  /// values.
   double low = -std::numeric_limits<double>::infinity(), high = std::numeric_limits<double>::infinity();
   bool low_excluded = false;       ///< it must be above `low`
-  std::vector<std::string> words;  ///< of a word, all that are allowed
-  std::string comment;             ///< behind it, without the #
-  std::string doc;                 ///< what it means, one line; only of scenarios that a page has asked for
-  std::string otherwise;           ///< of a key that is absent: what holds without it, in words
+  std::vector<std::string> words;  ///< allowed words
+  std::string comment;             ///< after the value, without the #
+  std::string doc;                 ///< description in one line; only of scenarios that a page has requested
+  std::string otherwise;           ///< for an absent key: the behaviour without it, in words
 };
 
-/// What can be said of a scenario without making its particles.
+/// Properties of a scenario that are known without loading its particles.
 struct ScenarioOutline {
   std::string title, description;
   int dimension = 0;                     ///< of the box
-  std::optional<double> steps;           ///< of a run that is not told otherwise; nothing: it depends on the state
-  std::optional<std::size_t> particles;  ///< nothing: it takes more than a look to count them
+  std::optional<double> steps;           ///< of a run by default; nothing: it depends on the state
+  std::optional<std::size_t> particles;  ///< nothing: unknown without loading them
 };
 
-/// Throws ScenarioErrors if the text is not TOML or, having no [box] or no [[ensembles]], no scenario; `file` stands
-/// for it in messages.
+/// Throws ScenarioErrors if the text is not TOML or, without [box] or [[ensembles]], not a scenario; `file` is the name
+/// in messages.
 ScenarioOutline outline_scenario(std::string const& text, std::string const& file);
 
-/// Paths (of --set) and values: TOML, or a text without its quotation marks. Without a value: the key is left out.
+/// Paths (as in --set) and values: TOML, or a text without quotation marks. No value: the key is removed.
 using ScenarioValues = std::vector<std::pair<std::string, std::optional<std::string>>>;
 
-/// The text with other values in it and everything else, comments and layout, as it was. A key that its table does not
-/// have yet stands behind the others; one that is left out goes with its line. Throws Error if there is no such place, and ScenarioErrors if the text is not
-/// TOML.
+/// Replaces values in the text; everything else, including comments and layout, is unchanged. A new key is added after
+/// the others of its table; a removed one disappears with its line. Throws Error if there is no such place, and
+/// ScenarioErrors if the text is not TOML.
 std::string with_values(std::string const& text, ScenarioValues const& values);
 
 }  // namespace boltzmann

@@ -1,4 +1,4 @@
-// The words are a table of a document without a file, and read as one.
+// The words become a table of a document without a file, and are read as such.
 #include <boltzmann/core/toml_text.hpp>
 #include <boltzmann/diagnoses/derived.hpp>
 #include <boltzmann/pictures/picture_options.hpp>
@@ -29,7 +29,7 @@ Item item_of(Option const& option, std::string const& text, Place const& place) 
   }
 }
 
-/// Whether it shows the quantities that the words ask for, as far as they say any.
+/// True if it shows the quantities that the words name, if any.
 bool shows(Picture plan, PictureWords const& words) {
   return std::all_of(words.begin(), words.end(), [&](auto const& word) {
     auto const& [key, text] = word;

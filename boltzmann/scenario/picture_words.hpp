@@ -1,4 +1,4 @@
-// What is said of a picture outside of a scenario, on a command line: option by option, as text.
+// Options of a picture outside of a scenario, on a command line, as text.
 #pragma once
 
 #include <boltzmann/scenario/scenario.hpp>
@@ -9,13 +9,13 @@
 
 namespace boltzmann {
 
-/// Keys of picture_options() and values, as TOML or without its quotation marks; a list may be without brackets.
+/// Keys of picture_options() and values, as TOML or without quotation marks; a list may be without brackets.
 using PictureWords = std::vector<std::pair<std::string, std::string>>;
 
-/// The first picture of a run that has the drawing and the quantities which the words ask for (any, if they ask for none),
-/// else the first with the drawing, but for the ends of its values, with what they say of it; a plain one if the run has
-/// none. `plain`: what numbers without a unit count: the base's units, or those that pictures show.
-/// ScenarioErrors, "--low 1 kg: ...", with all that is wrong.
+/// The first picture of a run with the drawing and the quantities of the words (any, if they name none); else the first
+/// with the drawing, without the ends of its values; else a plain picture. The words are then applied to it. `plain`:
+/// the units of numbers without a unit: the base's, or those that pictures show. Throws ScenarioErrors, "--low 1 kg:
+/// ...", with all errors.
 enum class PlainNumbers { base, shown };
 Picture picture_by_words(ScenarioSimulation const& run, PictureWords const& words,
                          PlainNumbers plain = PlainNumbers::base);

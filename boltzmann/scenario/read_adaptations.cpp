@@ -1,4 +1,4 @@
-// Reads [[remesh]], [[split_cores]] and [[outflow]]: what changes vortices between steps.
+// Reads [[remesh]], [[split_cores]] and [[outflow]]: changes of vortices between steps.
 #include <boltzmann/scenario/read_options.hpp>
 #include <boltzmann/scenario/reading.hpp>
 #include <boltzmann/simulation/outflow.hpp>
@@ -13,7 +13,7 @@
 namespace boltzmann {
 namespace {
 
-/// The ensembles that `on` names, or all that fit; those that can't be meant are mistakes.
+/// The ensembles that `on` names, or all that fit; adds mistakes for unsuitable ones.
 template <class Fits>
 std::vector<AnyEnsemble*> read_on(Section& section, std::string_view key, Fits const& fits, Reading& reading) {
   Item const* const on = section.find("on");
@@ -37,7 +37,7 @@ std::vector<AnyEnsemble*> read_on(Section& section, std::string_view key, Fits c
   return ensembles;
 }
 
-/// What the options need besides their keys; false after a mistake.
+/// Reads the options that are not plain keys; returns false after a mistake.
 bool complete(RemeshOptions& options, Item const& /*table*/, Reading& reading) {
   if (auto const* bodies = reading.result->scheme<PanelScheme>())
     options.how.allowed = [bodies, depth = 2.01 * options.how.spacing](std::array<double, 3> const& place) {
@@ -61,7 +61,7 @@ bool complete(OutflowOptions& options, Item const& table, Reading& reading) {
   return true;
 }
 
-/// Where they go to; those who are there already stay.
+/// Reads the destination of removed particles; particles that are already there stay.
 void read_into(Section& section, OutflowOptions& options, std::vector<AnyEnsemble*>& ensembles, Reading& reading) {
   Item const* const into = section.find("into");
   if (!into) return;
@@ -86,7 +86,7 @@ std::shared_ptr<Adapter> adapter_of(AnyEnsemble& ensemble, Options const& option
     return std::make_shared<Adapter>(ensemble, reading.result->box(), options.how);
 }
 
-/// One table: its options, and one Adapter of each ensemble.
+/// Reads one table: its options, and one Adapter per ensemble.
 template <class Adapter, class Options, class Fits>
 void read_one(Item const& table, std::string const& key, OptionTable const& known, Fits const& fits, Reading& reading) {
   std::size_t const before = reading.context.mistakes.count();

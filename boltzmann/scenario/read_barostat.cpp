@@ -1,4 +1,4 @@
-// Reads [[barostat]]: a pressure that is held by stretching the box.
+// Reads [[barostat]]: a pressure that is maintained by deforming the box.
 #include <boltzmann/scenario/read_options.hpp>
 #include <boltzmann/scenario/reading.hpp>
 #include <boltzmann/scenario/time_formula.hpp>
@@ -10,7 +10,7 @@
 namespace boltzmann {
 namespace {
 
-/// One axis or a list of them, by number.
+/// One axis or a list of axes, by number.
 std::vector<int> read_stretched_axes(Item const& item, Reading& reading) {
   std::vector<int> axes;
   auto const take = [&](Item const& word) {
@@ -30,7 +30,7 @@ std::vector<int> read_stretched_axes(Item const& item, Reading& reading) {
   return axes;
 }
 
-/// What events may set of barostat number `n`.
+/// The values of barostat number `n` that events may set.
 void add_settable(std::size_t n, Reading& reading) {
   auto const add = [&](char const* key, Dimension dimension, void (Barostat::*set)(double)) {
     reading.settable.push_back(settable_number(
@@ -71,7 +71,7 @@ void read_one_barostat(Item const& table, Reading& reading) {
 
 void read_barostats(Section& document, Reading& reading) {
   for (Item const* table : find_tables(document, "barostat", true)) read_one_barostat(*table, reading);
-  // Moves of the box would feel the jumps, which forces and the virial don't have.
+  // Trial deformations of the box would include jumps of the energy that forces and virial don't have.
   if (!reading.barostats.empty() && reading.jump)
     reading.mistake(
         *reading.jump,

@@ -15,7 +15,7 @@
 namespace boltzmann {
 namespace {
 
-/// From one table to an ensemble of panels.
+/// Creates an ensemble of panels from one table.
 void read_body(Item const& table, Reading& reading) {
   std::size_t const before = reading.context.mistakes.count();
   Section section(table, "[[bodies]]", reading.context);

@@ -15,7 +15,7 @@
 namespace boltzmann {
 namespace {
 
-/// With all keys that its base needs.
+/// Requires all keys of its base.
 UnitSystem base_of(UnitsOptions const& of) {
   if (of.base == "cgs") return UnitSystem::cgs();
   if (of.base == "reduced") return UnitSystem::reduced();
@@ -99,7 +99,7 @@ ReadEnsemble* Reading::ensemble(Item const& word, std::string_view key) {
   if (context.notes) context.notes->word(word, names);
   for (auto& e : ensembles)
     if (e.name == *name) return &e;
-  // One whose own name could not be read may be the one that is meant.
+  // An ensemble whose name could not be read may be the one that is named.
   for (auto const& e : ensembles)
     if (e.name.empty()) return nullptr;
   mistake(word.place, fmt::format("{}: there is no ensemble '{}'{}", key, *name, choices(*name, names)));
@@ -124,7 +124,7 @@ void read_units(Section& document, Reading& reading) {
   if (reading.context.mistakes.count() == before)
     catch_errors(reading, units.place(), [&] { chosen = base_of(options); });
   reading.base_known = reading.context.mistakes.count() == before;
-  // Without a base nobody knows which keys it would have had.
+  // Without a base, its keys are unknown.
   if (!options.base.empty()) units.finish();
   if (reading.base_known) {
     reading.context.units = chosen;
@@ -141,7 +141,7 @@ std::array<double, 3> wide(std::vector<double> const& v) {
   return w;
 }
 
-/// A corner; the first one says how many dimensions there are.
+/// A corner; the first one determines the number of dimensions.
 std::vector<double> read_corner(Item const* item, char const* key, Reading& reading) {
   if (!item) return {};
   bool const list = item->is(Item::Kind::array);
@@ -213,7 +213,7 @@ void read_box(Section& document, Reading& reading) {
   auto const boundaries = read_boundaries(section.find("boundary"), reading);
   if (low_item && high_item && low_item->is(Item::Kind::array) && high_item->is(Item::Kind::array) &&
       low_item->elements.size() != high_item->elements.size())
-    reading.dimension = 0;  // which of the two is meant is not known
+    reading.dimension = 0;  // it is unknown which of the two is right
   if (reading.context.mistakes.count() == before && reading.base_known && !low.empty() && !high.empty())
     catch_errors(reading, high_item->place,
                  [&] { reading.box.emplace(reading.dimension, wide(low), wide(high), boundaries); });
@@ -277,7 +277,7 @@ void settle_run(Item& resolved, Reading& reading) {
     double longest = 0;
     try {
       longest = reading.result->scheme<SmoothScheme>()->courant_step();
-    } catch (std::runtime_error const& failure) {  // of the user's input or of the physics
+    } catch (std::runtime_error const& failure) {  // an error of the user's input or of the physics
       return reading.mistake(place_of(failure.what(), reading), failure.what());
     }
     if (!(longest > 0) || !std::isfinite(longest))
@@ -297,7 +297,7 @@ void settle_run(Item& resolved, Reading& reading) {
   };
   if (run.courant) replace("step", "step", Item::of_number(*run.step));
   if (run.time) {
-    // A time of so many steps, but for rounding, is that many.
+    // A time that equals a number of steps, up to rounding, gives this number.
     double const steps = std::ceil(*run.time / *run.step * (1 - 1e-12));
     if (steps > 9e18) return reading.mistake(run.time_place, fmt::format("time: it would need {:.3g} steps", steps));
     run.steps = static_cast<std::int64_t>(steps);

@@ -1,4 +1,4 @@
-// Reads [[classes]]: classes that a scenario derives from shipped ones, with fields of their own and rates.
+// Reads [[classes]]: classes that a scenario derives from shipped ones, with additional fields and rates.
 #include <boltzmann/core/quantity_text.hpp>
 #include <boltzmann/formulas/formula_reader.hpp>
 #include <boltzmann/integrators/driven_fields.hpp>
@@ -24,7 +24,7 @@ bool is_one_of(std::string_view word, std::vector<std::string> const& words) {
   return std::find(words.begin(), words.end(), word) != words.end();
 }
 
-/// Keys of [[ensembles]], which a field of particles would be taken for.
+/// Keys of [[ensembles]], which would be ambiguous as names of fields.
 std::vector<std::string> const& keys_of_ensembles() {
   static std::vector<std::string> const all = [] {
     auto keys = ensemble_options().keys();
@@ -34,13 +34,13 @@ std::vector<std::string> const& keys_of_ensembles() {
   return all;
 }
 
-/// What else a name means in formulas.
+/// True if a name has another meaning in formulas.
 bool means_something(std::string_view name) {
   static std::vector<std::string> const taken{"x", "y", "z", "r", "p", "q", "pi", "time", "separation", "number"};
   return is_one_of(name, taken) || is_one_of(name, formula_functions());
 }
 
-/// Whether a formula uses a name: its own, or that of p's or q's.
+/// True if a formula uses a name: alone, or as a field of p or q.
 bool uses(std::string_view formula, std::string_view name) {
   auto const in_word = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };
   for (std::size_t at = formula.find(name); at != std::string_view::npos; at = formula.find(name, at + 1)) {
@@ -60,7 +60,7 @@ void refuse_uses(std::vector<ReadNeighbourField> const& fields, std::string_view
                                   key, one.field.field));
 }
 
-/// From one table to a class.
+/// Creates a class from one table.
 class ClassReader {
  public:
   ClassReader(Item const& table, Reading& reading)
@@ -90,7 +90,7 @@ class ClassReader {
       check_driven();
       make();
     }
-    if (result_ && !derived_.name.empty()) {  // it has mistakes: ensembles of it have none of their own
+    if (result_ && !derived_.name.empty()) {  // after mistakes, ensembles of the class report none of their own
       result_->kind.name = derived_.name;
       reading_.classes.push_back(std::move(result_));
     }
@@ -202,7 +202,7 @@ class ClassReader {
     derived_.added.push_back(std::move(added));
   }
 
-  /// Keys that mean nothing without `neighbours`, or beside it.
+  /// Checks keys that have no effect without `neighbours`, or with it.
   void check_neighbours(Section& section) {
     bool const wanted = section.has("neighbours");
     for (char const* other : {"of", "bond_order"})
@@ -215,7 +215,7 @@ class ClassReader {
   }
 
   bool can_be_named(std::string const& name, Place const& place) {
-    // They mean something to the program, which looks for them by name.
+    // Names that the program itself uses for lookups.
     static std::vector<std::string> const of_classes{
         "internal_energy", "specific_energy", "temperature", "density",   "range",    "pressure",
         "sound_speed",     "vorticity",       "core",        "viscosity", "anchor",   "stress",
@@ -270,7 +270,7 @@ class ClassReader {
       texts_.push_back({whole, &entry.item});
     }
   }
-  /// Numbers are formulas, too; a list is that of the components of a vector.
+  /// Numbers are formulas, too; a list has the components of a vector.
   std::optional<std::string> formula_of(Item const& item, std::string const& whole) {
     if (item.is_number()) {
       if (reading_.context.notes) reading_.context.notes->plain(item, "number");
@@ -288,7 +288,7 @@ class ClassReader {
     return nullptr;
   }
 
-  /// What the equations of motion of the base change already, or what schemes find, has no rate.
+  /// Fields that the base's equations of motion change, or that schemes compute, can't have a rate.
   void check_driven() {
     bool const plain = is_moved_as<Newton<1>, Newton<2>, Newton<3>, Tracer<1>, Tracer<2>, Tracer<3>>();
     for (auto const& rate : result_->rates.rates) {
@@ -342,7 +342,7 @@ class ClassReader {
 
   void make() {
     if (!right()) return;
-    // The texts are wrong for all ensembles of the class, or for none.
+    // The texts are invalid for all ensembles of the class, or for none.
     DerivedEnsemble const nobody("nobody", derived_, *particles_);
     try {
       if (has_rates()) result_->rates.on(nobody);
@@ -393,9 +393,9 @@ class ClassReader {
   DerivedClass derived_;
   ParticleClass const* base_ = nullptr;
   ClassVariant const* variant_ = nullptr;
-  bool fields_known_ = true;                                ///< false: there are mistakes in them
-  std::unique_ptr<AnyEnsemble> particles_;                  ///< one of the base
-  std::vector<std::pair<std::string, Place>> periods_;      ///< of which fields, and where it says so
+  bool fields_known_ = true;                                ///< false after mistakes
+  std::unique_ptr<AnyEnsemble> particles_;                  ///< of the base
+  std::vector<std::pair<std::string, Place>> periods_;      ///< the fields, and the places in the file
   std::vector<std::pair<std::string, Item const*>> texts_;  ///< "rate.charge"
 };
 
@@ -424,7 +424,7 @@ void Reading::refuse_neighbour_fields(std::string_view formula, std::string_view
 
 namespace {
 
-/// Those of these names, or all; nothing and a mistake where there is no such ensemble.
+/// The ensembles of these names, or all; nothing and a mistake if one is unknown.
 std::vector<AnyEnsemble*> neighbours_of(ReadNeighbourField const& around, Reading& reading) {
   std::vector<AnyEnsemble*> among;
   for (auto const& ensemble : reading.ensembles)
@@ -461,7 +461,7 @@ void load_neighbour_fields(Reading& reading) {
         catch_errors(reading, around.place, [&] { scheme->find(*ensemble.particles, std::move(field)); });
       }
     }
-  // For groups that are chosen by them.
+  // For groups selected by these fields.
   if (auto* scheme = reading.result->scheme<NeighbourFields>(); scheme && reading.context.mistakes.none())
     scheme->complete(0);
 }

@@ -1,4 +1,4 @@
-// Reads [cylinder_flow]: a circle past which a stream and vortices flow.
+// Reads [cylinder_flow]: the flow of a stream and vortices past a circle.
 #include <boltzmann/scenario/read_options.hpp>
 #include <boltzmann/scenario/reading.hpp>
 #include <boltzmann/schemes/cylinder/cylinder_flow.hpp>

@@ -1,4 +1,4 @@
-// Reads [[dissipation]], friction and noise, and [equilibrate], which brings particles to a temperature before the run.
+// Reads [[dissipation]], friction and noise, and [equilibrate], which thermalises particles before the run.
 #include <boltzmann/core/quantity_text.hpp>
 #include <boltzmann/diagnoses/measures.hpp>
 #include <boltzmann/dissipation/dissipation_options.hpp>
@@ -24,26 +24,26 @@
 namespace boltzmann {
 namespace {
 
-/// An equilibration longer than this is a slip of the pen.
+/// A longer equilibration is certainly a typing error.
 constexpr double max_steps = 9e15;
 
-/// Two ensembles (or one, twice) with dissipation of some kind, and where it says so.
+/// Two ensembles (or one, twice) with dissipation of some kind, and its place in the file.
 struct DissipatingPair {
   ReadEnsemble const *a, *b;
   Place place;
 };
 
-/// What the readers of single tables share.
+/// Data shared by the readers of single tables.
 struct Dissipations {
   Reading& reading;
   PairDissipation* pairs = nullptr;  // all of them together
   std::optional<Place> first_dpd;
-  DissipationOptions together;  // method, corrector and metropolis: those of the first
-  std::size_t number = 0;       // of the table that is read
+  DissipationOptions together;  // method, corrector and metropolis: those of the first table
+  std::size_t number = 0;       // of the current table
   std::vector<DissipatingPair> dissipations, baths;
 };
 
-/// Whether friction and noise can act on an ensemble; a mistake if not. Heat baths spare frozen particles.
+/// True if friction and noise can act on an ensemble; otherwise adds a mistake. Heat baths skip frozen particles.
 bool supports(ReadEnsemble const& ensemble, Place const& place, std::string_view key, Reading& reading,
               bool spares_frozen = false) {
   AnyEnsemble const* particles = ensemble.particles;
@@ -64,7 +64,7 @@ bool supports(ReadEnsemble const& ensemble, Place const& place, std::string_view
   return true;
 }
 
-/// Two dissipations of a kind on the same particles would have the same noise.
+/// Two dissipations of one kind on the same particles would have the same noise.
 bool taken(std::vector<DissipatingPair>& list, ReadEnsemble const* a, ReadEnsemble const* b, Place const& place,
            std::string_view what, Reading& reading) {
   for (auto const& other : list)
@@ -79,7 +79,7 @@ bool taken(std::vector<DissipatingPair>& list, ReadEnsemble const* a, ReadEnsemb
   return false;
 }
 
-/// `on` one ensemble or `between` two; nothing, and a mistake, if there is neither.
+/// `on` for one ensemble or `between` for two; nothing, and a mistake, if both are missing.
 std::pair<ReadEnsemble*, ReadEnsemble*> read_pair(Section& section, Reading& reading) {
   section.explain_said(dissipation_pair_options());
   Item const *on = section.find("on"), *between = section.find("between");
@@ -95,7 +95,7 @@ std::pair<ReadEnsemble*, ReadEnsemble*> read_pair(Section& section, Reading& rea
   return two_ensembles(*between, reading);
 }
 
-/// method, corrector and metropolis stand in the first of all of kind "dpd".
+/// method, corrector and metropolis belong in the first table of kind "dpd".
 void check_method(Section& section, DissipationOptions const& options, Dissipations& all) {
   Reading& reading = all.reading;
   if (all.first_dpd) {
@@ -113,7 +113,7 @@ void check_method(Section& section, DissipationOptions const& options, Dissipati
     reading.mistake(section.place("metropolis"), "metropolis: it belongs to method = \"shardlow\"");
 }
 
-/// What its convention asks of the temperature and of conduction.
+/// Checks the requirements of its convention on the temperature and on conduction.
 void check_convention(Section& section, DissipationLaw const& dissipation, Reading& reading) {
   using enum Convention;
   std::string const name = to_string(dissipation.convention);
@@ -128,7 +128,7 @@ void check_convention(Section& section, DissipationLaw const& dissipation, Readi
                     "between which heat could flow; another convention has");
 }
 
-/// Whether a temperature belongs to the internal energy of each particle; a mistake if not.
+/// True if the internal energy of each particle has a temperature; otherwise adds a mistake.
 bool has_temperatures(ReadEnsemble const& ensemble, Place const& place, std::string_view convention, Reading& reading) {
   if (!has_internal_energy(*ensemble.kind)) {
     reading.mistake(place, fmt::format("convention: \"{}\" turns motion into internal energy; particles of class {} "
@@ -157,7 +157,7 @@ bool has_temperatures(ReadEnsemble const& ensemble, Place const& place, std::str
   return true;
 }
 
-/// Whether a letter stands in a text as a word of its own.
+/// True if a letter occurs in a text as a separate word.
 bool has_word(std::string_view text, char letter) {
   auto const joins = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; };
   for (std::size_t k = 0; k < text.size(); ++k)
@@ -166,7 +166,7 @@ bool has_word(std::string_view text, char letter) {
   return false;
 }
 
-/// Whether friction is more than a quantity: "2 kg/s*T" would be one, of teslas.
+/// True if friction is more than a quantity: "2 kg/s*T" would be one, of teslas.
 bool is_formula(Item const& item) {
   if (!item.is(Item::Kind::text)) return false;
   if (has_word(item.text, 'r') || has_word(item.text, 'T')) return true;
@@ -178,7 +178,7 @@ bool is_formula(Item const& item) {
   }
 }
 
-/// Where formulas of friction stand; null: there is none.
+/// The places of friction formulas; null: there is none.
 struct FrictionTexts {
   Item const *weight = nullptr, *friction = nullptr;
   FrictionFormulas formulas = {};
@@ -186,7 +186,7 @@ struct FrictionTexts {
   bool any() const { return weight || friction; }
 };
 
-/// weight, parameters, and friction where it is a formula, which is taken out of the keys.
+/// Reads weight, parameters, and friction if it is a formula, and removes them from the keys.
 FrictionTexts read_friction_texts(Section& section, OptionTable& keys, Reading& reading) {
   FrictionTexts texts;
   texts.formulas.units = reading.base_known ? reading.context.units : UnitSystem::reduced();
@@ -212,7 +212,7 @@ FrictionTexts read_friction_texts(Section& section, OptionTable& keys, Reading& 
   return texts;
 }
 
-/// From half of the lowest internal temperature to twice the highest.
+/// The range from half of the lowest internal temperature to twice the highest.
 void find_temperatures(FrictionFormulas& formulas, std::initializer_list<ReadEnsemble const*> ensembles) {
   double lowest = HUGE_VAL, highest = 0;
   for (ReadEnsemble const* one : ensembles) {
@@ -227,7 +227,7 @@ void find_temperatures(FrictionFormulas& formulas, std::initializer_list<ReadEns
   if (highest > 0) formulas.temperatures = {0.5 * lowest, 2 * highest};
 }
 
-/// Puts formulas into the law; mistakes at their places.
+/// Adds formulas to the law; reports mistakes at their places.
 void apply(FrictionTexts& texts, DissipationLaw& law, ReadEnsemble const* a, ReadEnsemble const* b, Section& section,
            Reading& reading) {
   find_temperatures(texts.formulas, {a, b});
@@ -242,7 +242,7 @@ void apply(FrictionTexts& texts, DissipationLaw& law, ReadEnsemble const* a, Rea
   }
 }
 
-/// Whether it can act between these; a mistake if not.
+/// True if it can act between these; otherwise adds a mistake.
 bool can_act(DissipationLaw const& dissipation, ReadEnsemble const& a, ReadEnsemble const& b, Section& section,
              Dissipations& all) {
   Reading& reading = all.reading;
@@ -319,10 +319,10 @@ void read_pairs(Section& section, Item const& table, Dissipations& all) {
 
 struct ReadBath {
   BathOptions options;
-  std::function<double(double)> temperature;  ///< of the time; null: that of the options
+  std::function<double(double)> temperature;  ///< function of time; null: constant, as in the options
 };
 
-/// A heat bath from the keys of its kind; nothing, and mistakes, if they are wrong.
+/// A heat bath from the keys of its kind; nothing, and mistakes, if they are invalid.
 std::optional<ReadBath> read_bath(Section& section, OptionTable const& keys, Reading& reading) {
   std::size_t const before = reading.context.mistakes.count();
   ReadBath bath;
@@ -401,7 +401,7 @@ void read_table(Item const& table, Dissipations& all) {
   }
 }
 
-/// Without `on` those that forces move by leap-frog are brought to it.
+/// Default of `on`: the particles moved by forces with leap-frog.
 std::vector<ReadEnsemble const*> to_be_equilibrated(Item const* on, Reading& reading) {
   std::vector<ReadEnsemble const*> chosen;
   if (!on) {
@@ -429,7 +429,7 @@ void read_equilibration(Item const& table, Reading& reading) {
   section.finish();
   auto const chosen = to_be_equilibrated(on, reading);
   if (reading.context.mistakes.count() != before || !read || !time || !reading.run.step) return;
-  // A time of so many steps, but for rounding, is that many.
+  // A time that equals a number of steps, up to rounding, gives this number.
   double const steps = std::ceil(*time / *reading.run.step * (1 - 1e-12));
   if (steps > max_steps)
     return reading.mistake(section.place("time"), fmt::format("time: it would need {:.3g} steps", steps));

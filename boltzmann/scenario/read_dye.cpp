@@ -1,4 +1,4 @@
-// Reads [[dye]]: where tracers are released while the run goes on.
+// Reads [[dye]]: places where tracers are released during the run.
 #include <boltzmann/scenario/read_options.hpp>
 #include <boltzmann/scenario/reading.hpp>
 #include <boltzmann/simulation/dye.hpp>

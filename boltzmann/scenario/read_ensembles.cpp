@@ -1,4 +1,4 @@
-// Reads [[ensembles]]: which particles there are, and in what state.
+// Reads [[ensembles]]: the particles and their initial state.
 #include <boltzmann/core/elements.hpp>
 #include <boltzmann/files/trajectory.hpp>
 #include <boltzmann/loaders/internal_energy_load.hpp>
@@ -27,7 +27,7 @@ std::string title_of(Item const& table) {
   return name && name->item.is(Item::Kind::text) ? "[[ensembles]] '" + name->item.text + "'" : "[[ensembles]]";
 }
 
-/// From one table to an ensemble: first what is to be, then its particles.
+/// Creates an ensemble from one table: first its definition, then its particles.
 class EnsembleReader {
  public:
   EnsembleReader(Item const& table, std::string title, Reading& reading, Item const* otherwise = nullptr)
@@ -51,7 +51,7 @@ class EnsembleReader {
     reading_.ensembles.push_back(std::move(ensemble_));
   }
 
-  /// More particles of an ensemble, under a name of their own.
+  /// Further particles for an ensemble, with a name of their own.
   std::unique_ptr<AnyEnsemble> read_more(ReadEnsemble const& of, std::string const& name, PlaceAgain& again) {
     addition_ = true;
     read_options(section_, ensemble_options().only({{"number"}}), &options_, {.dimension = reading_.dimension});
@@ -90,7 +90,7 @@ class EnsembleReader {
   bool right() const { return reading_.context.mistakes.count() == before_; }
   bool smooth() const { return kind_ && kind_->matter != Matter::none; }
   void mistake(Place const& place, std::string const& what) { reading_.mistake(place, what); }
-  /// The space that each particle has, on a lattice.
+  /// The volume per particle on a lattice.
   std::optional<double> volume() const { return loader_ ? loader_->volume() : std::nullopt; }
   bool density_gives_mass() const {
     return smooth() && volume() && gives(section_, "density") && !gives(section_, "mass");
@@ -148,7 +148,7 @@ class EnsembleReader {
               fmt::format("class {} needs the scheme of smooth particles; add a table [smooth]", kind_->name));
   }
 
-  /// Before the fields: it knows how many particles there are.
+  /// Before the fields, because it determines the number of particles.
   void read_load() {
     Item const* item = section_.need("load", "load = { kind = \"random\" }");
     if (!item) return;
@@ -211,12 +211,13 @@ class EnsembleReader {
     made_ = variant_->make(options_.name, count_);
     particles_ = made_.get();
     auto const all = all_indices(*particles_);
-    for (auto const& value : fields_) apply(value, *particles_, all);  // loaders look at masses
+    for (auto const& value : fields_) apply(value, *particles_, all);  // loaders use masses
     bool const loaded = catch_errors(reading_, ensemble_.load_place, [&] {
       loader_->load(*particles_);
       settle_masses();
     });
-    particles_->appearance = options_.appearance;  // after a lattice's own diameter: pictures of scenarios choose one
+    // after the default diameter of a lattice, which pictures of scenarios may select
+    particles_->appearance = options_.appearance;
     for (auto const& value : fields_) apply(value, *particles_, all);
     if (smooth() && volume() && reading_.smooth.variable && !gives(section_, "range"))
       set_ranges(*particles_, *volume(), reading_.smooth.variable->spacings);
@@ -226,7 +227,7 @@ class EnsembleReader {
     if (!loaded || !fill_fields(all) || !fill_velocities()) particles_ = nullptr;
   }
 
-  /// Fields whose values the table gives.
+  /// Fields whose values the table sets.
   std::vector<std::string> given_names() const {
     std::vector<std::string> names;
     for (auto const& value : fields_) names.push_back(value.field.name);
@@ -235,7 +236,7 @@ class EnsembleReader {
     return names;
   }
 
-  /// Masses that neither the table nor the loader gives are those of elements. Of pure numbers they are 1.
+  /// Masses set neither by the table nor by the loader are those of the elements. For pure numbers they are 1.
   void settle_masses() {
     Field const* mass = particles_->find_field("mass");
     UnitSystem const& units = reading_.context.units;
@@ -252,7 +253,7 @@ class EnsembleReader {
     }
   }
 
-  /// Of a file without masses. In a base with a unit of mass that the user has chosen, 1 may be meant; 1 kg never is.
+  /// For a file without masses. In a base with a user-defined unit of mass, 1 may be intended; 1 kg is always wrong.
   void take_element_masses(Field const& mass) {
     UnitSystem const& units = reading_.context.units;
     auto const masses = loader_->element_masses();
@@ -274,8 +275,8 @@ class EnsembleReader {
                     options_.name, file, units.text(1, dimensions::mass, 6), cure));
   }
 
-  /// Internal energies, and what formulas say. The density goes before: from it follow masses, and other formulas may
-  /// use both.
+  /// Sets internal energies and fields given by formulas. The density comes first: masses follow from it, and other
+  /// formulas may use both.
   bool fill_fields(std::vector<std::uint32_t> const& all) {
     if (internal_temperature_ && ensemble_.state && !catch_errors(reading_, section_.place("internal_energy"), [&] {
           internal_energy_load(*particles_, *ensemble_.state,
@@ -315,7 +316,7 @@ class EnsembleReader {
                                     [&] { velocity_ripple(*particles_, *reading_.box, *ripple_); });
   }
 
-  /// Whether some [[ensembles.set]] gives masses.
+  /// True if some [[ensembles.set]] sets masses.
   bool set_gives_mass() const {
     Item const* sets = section_.item("set");
     if (!sets || !sets->is(Item::Kind::array)) return false;
@@ -325,7 +326,7 @@ class EnsembleReader {
     });
   }
 
-  /// [[ensembles.set]]: other values for some of them.
+  /// [[ensembles.set]]: other values for some of the particles.
   void read_set(Item const& table) {
     Section set(table, "[[ensembles.set]]", reading_.context);
     SetOptions options;
@@ -361,7 +362,7 @@ class EnsembleReader {
     if (options.freeze) frozen_.insert(frozen_.end(), which->begin(), which->end());
   }
 
-  /// Whether the class can be advanced that way is known without particles, too.
+  /// Checks the method of the class even without particles.
   void make_integrator() {
     if (section_.has("integrator") && !options_.integrator) return;
     Method const method = options_.integrator.value_or(variant_->usual_method);
@@ -394,7 +395,7 @@ class EnsembleReader {
   std::optional<VelocityRipple> ripple_;
   bool addition_ = false;
   std::unique_ptr<AnyEnsemble> made_;
-  AnyEnsemble* particles_ = nullptr;  ///< null until, and unless, everything is right
+  AnyEnsemble* particles_ = nullptr;  ///< null until everything is valid
   std::vector<std::uint32_t> frozen_;
 };
 
@@ -402,7 +403,7 @@ bool any_of_these(std::initializer_list<std::string_view> keys, std::string cons
   return std::find(keys.begin(), keys.end(), key) != keys.end();
 }
 
-/// A value for each particle, or each of a molecule.
+/// A value per particle, or per particle of a molecule.
 bool is_list(Item const& item, std::string const& key, ParticleClass const& kind, int dimension) {
   if (!item.is(Item::Kind::array) || item.elements.empty()) return false;
   for (auto const& field : given_fields(kind, dimension))
@@ -411,8 +412,8 @@ bool is_list(Item const& item, std::string const& key, ParticleClass const& kind
   return false;
 }
 
-/// What an ensemble's own table says of particles that are like its own: all but where they are, and how fast. A mistake
-/// where `table` has to say it.
+/// The properties that added particles inherit from an ensemble's own table: all except positions and velocities. Adds
+/// a mistake if `table` must set one.
 Item alike(Item const& table, ReadEnsemble const& of, Reading& reading) {
   Item all;
   bool const one_gives_the_other = of.smooth() && !reading.smooth.from_continuity;
@@ -438,7 +439,7 @@ Item alike(Item const& table, ReadEnsemble const& of, Reading& reading) {
   return all;
 }
 
-/// Particles of files that no ensemble takes, or several.
+/// Notes particles of files that no ensemble uses, or several.
 void note_species(Reading& reading) {
   for (auto const& [path, file] : reading.files) {
     std::vector<std::string> none, several;

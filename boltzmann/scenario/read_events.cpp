@@ -1,4 +1,4 @@
-// Reads [[events]]: what happens at a time of the run.
+// Reads [[events]]: changes at a time of the run.
 #include <boltzmann/core/quantity_text.hpp>
 #include <boltzmann/core/team.hpp>
 #include <boltzmann/loaders/append.hpp>
@@ -20,7 +20,7 @@
 namespace boltzmann {
 namespace {
 
-/// How ensembles are advanced from a time on.
+/// Integrators of ensembles from a time on.
 void add_integrators(Reading& reading) {
   for (auto const& ensemble : reading.ensembles) {
     if (!ensemble.particles || !ensemble.kind) continue;
@@ -54,7 +54,7 @@ void add_integrators(Reading& reading) {
   }
 }
 
-/// set = { "dissipation.0.temperature" = "100 K" }, with its paths in quotes or not.
+/// set = { "dissipation.0.temperature" = "100 K" }, with paths quoted or not.
 void read_settings(Item const& table, std::string const& before, Reading& reading,
                    std::vector<std::function<void(Simulation&)>>& settings) {
   for (auto const& entry : table.entries) {
@@ -69,7 +69,7 @@ void read_settings(Item const& table, std::string const& before, Reading& readin
       read_settings(entry.item, path + ".", reading, settings);
       continue;
     }
-    if (!all_loaded(reading) || !reading.context.mistakes.none()) continue;  // what is meant may not have been read
+    if (!all_loaded(reading) || !reading.context.mistakes.none()) continue;  // the target may not have been read
     std::vector<std::string> paths;
     for (auto const& one : reading.settable) paths.push_back(one.path);
     reading.mistake(entry.place,
@@ -77,7 +77,7 @@ void read_settings(Item const& table, std::string const& before, Reading& readin
   }
 }
 
-/// Whose velocities an event changes.
+/// The particles whose velocities an event changes.
 struct Moved {
   AnyEnsemble* ensemble;
   std::shared_ptr<ParticleFormula> where;  // null: all
@@ -98,7 +98,7 @@ bool is_nobody(std::vector<ChosenParticles> const& who) {
   return std::all_of(who.begin(), who.end(), [](ChosenParticles const& one) { return one.which.empty(); });
 }
 
-/// Of an event that happens to no particle.
+/// Warns of an event that affects no particle.
 void warn_of_nobody(std::string const& where, std::string const& time) {
   if (team().first())
     fmt::print(stderr, "{}warning: event at {}: where '{}' is true for no particle\n",
@@ -139,12 +139,12 @@ std::vector<Moved> read_moved(Section& section, Reading& reading) {
 
 struct Addition {
   AnyEnsemble* to;
-  std::vector<std::shared_ptr<AnyEnsemble const>> particles;  // of each time
+  std::vector<std::shared_ptr<AnyEnsemble const>> particles;  // for each time
   ClassVariant const* variant;
   PlaceAgain again = {};
 };
 
-/// Puts them at this distance from all particles that are there.
+/// Places them at this distance from all existing particles.
 void append_apart(Addition const& added, AnyEnsemble const& more, double distance, Simulation const& simulation) {
   auto const particles = added.variant->make(more.name(), more.size());
   for (std::size_t i = 0; i < more.size(); ++i) std::copy_n(more.row(i), more.doubles(), particles->row(i));
@@ -203,7 +203,7 @@ std::function<void(Simulation&)> adding_event(Addition const& added, std::size_t
   };
 }
 
-/// Whether a distance to others can be kept.
+/// Checks that a distance from others is possible.
 void check_distance(Section& section, Item const* add, Addition const* added, Reading& reading) {
   if (!add) section.mistake("keep_distance", "it belongs to 'add'; leave it out");
   if (!add || !added) return;
@@ -221,7 +221,7 @@ std::string condition_of(Section const& section) {
   return where && where->is(Item::Kind::text) ? where->text : "";
 }
 
-/// A note if the condition is true for no particle as they start.
+/// Adds a note if the condition is true for no particle in the initial state.
 void note_nobody(std::vector<Moved> const& moved, double time, std::string const& condition, Place const& place,
                  Reading& reading) {
   if (condition.empty() || !is_nobody(who_is_moved(moved, time))) return;
@@ -229,7 +229,7 @@ void note_nobody(std::vector<Moved> const& moved, double time, std::string const
       fmt::format("note: where: '{}' is true for no particle at the start (event in line {})", condition, place.line));
 }
 
-/// What temperature, scale and kick do to those for which the condition is true then.
+/// Applies temperature, scale and kick to the particles for which the condition is true at that time.
 std::function<void(Simulation&)> velocity_change(std::vector<Moved> const& moved, EventOptions const& options,
                                                  std::string const& condition, Reading const& reading) {
   return [=, k = reading.boltzmann_constant(), units = reading.context.units](Simulation& simulation) {
@@ -244,7 +244,7 @@ std::function<void(Simulation&)> velocity_change(std::vector<Moved> const& moved
   };
 }
 
-/// Keys that belong to changes of velocities.
+/// Checks keys that belong to changes of velocities.
 void check_what_moves(Section& section, EventOptions const& options, bool adds, Reading& reading) {
   bool const moves = options.temperature || options.scale || options.kick;
   for (char const* key : {"on", "where"})

@@ -1,4 +1,4 @@
-// Reads [[influences]]: which law acts on whom.
+// Reads [[influences]]: laws and the ensembles on which they act.
 #include <boltzmann/core/quantity_text.hpp>
 #include <boltzmann/laws/formula_law.hpp>
 #include <boltzmann/scenario/among.hpp>
@@ -67,10 +67,10 @@ std::vector<Connection> read_connections(Item const& item, AnyEnsemble const* en
   return connections;
 }
 
-/// From one table to an influence in the scheme: which law, on whom, with which parameters.
+/// Adds the influence of one table to the scheme: its law, ensembles and parameters.
 class InfluenceReader {
  public:
-  /// Table `number` of them. `one_of_several`: made from a table with `among`, which has been read.
+  /// Reads table `number`. `one_of_several`: expanded from a table with `among`, which has already been read.
   InfluenceReader(Item const& table, std::size_t number, Reading& reading, bool one_of_several)
       : reading_(reading),
         number_(number),
@@ -114,7 +114,7 @@ class InfluenceReader {
  private:
   bool external() const { return typed_item_ ? options_.from_outside : law_ && law_->kind == LawKind::external; }
 
-  /// Numbers, words and flags that it may have.
+  /// Reads plain numbers, words and flags.
   void read_plain_keys() {
     std::vector<OptionKey> keys{{"every"}, {"tail"}};
     if (!external())
@@ -128,7 +128,7 @@ class InfluenceReader {
     read_options(section_, influence_options().only(keys), &options_, {.dimension = reading_.dimension});
   }
 
-  // ---- A law that is typed ----
+  // ---- A typed law ----
 
   void read_typed() {
     bool const by_energy = section_.has("energy");
@@ -213,7 +213,7 @@ class InfluenceReader {
     }
   }
   bool tuples() const { return angles_ || dihedrals_; }
-  /// angles, dihedrals: who is meant, and keys that mean nothing there.
+  /// angles, dihedrals: the ensemble, and keys that have no effect there.
   void read_tuples() {
     angles_ = section_.find("angles");
     dihedrals_ = section_.find("dihedrals");
@@ -232,7 +232,7 @@ class InfluenceReader {
     if (angles_) angle_members_ = read_angles(*angles_, a_, reading_);
     if (dihedrals_) dihedral_members_ = read_dihedrals(*dihedrals_, a_, reading_);
   }
-  /// A mistake if an ensemble has no such field, or one that does not change.
+  /// Adds a mistake if an ensemble has no such field, or one that is constant.
   void check_changes(ReadEnsemble const* one) {
     if (typed_.changes.empty() || !one || !one->particles) return;
     Item const& item = *section_.item("changes");
@@ -288,14 +288,14 @@ class InfluenceReader {
     });
   }
 
-  /// Barostats want to know of energies that jump where pairs cross the cut-off.
+  /// Records energies that jump when pairs cross the cut-off, because barostats need this.
   void note_jump(double reach) {
     if (std::isfinite(reach) && !reading_.run.shifted && !options_.tail &&
         typed_.at_cutoff == FormulaLaw::AtCutoff::cut && !reading_.jump)
       reading_.jump = law_place_;
   }
 
-  /// A shipped law as somebody would type it. Error if it can't be typed.
+  /// A shipped law as a formula. Throws Error if that is not possible.
   FormulaLaw typed_twin(ParameterValues const& parameters) const {
     std::string const text(law_->typed.in[reading_.dimension - 1]);
     if (text.empty())
@@ -307,7 +307,7 @@ class InfluenceReader {
     for (auto const& [name, value] : parameters) twin.parameters.push_back({name, value.front(), dimensions::none});
     return twin;
   }
-  /// The same law, ended at the cut-off; a mistake if it can't be.
+  /// The same law, smoothly truncated at the cut-off; adds a mistake if that is not possible.
   void install_ended(ParameterValues const& parameters, double reach) {
     AnyEnsemble &a = *a_->particles, &b = *b_->particles;
     if (single()) throw Error("at_cutoff: in single precision laws have no cut-off");
@@ -344,7 +344,7 @@ class InfluenceReader {
     section_.explain_said(influence_options());
     section_.rename(fmt::format("[[influences]] '{}'", *name));
   }
-  /// "force", "potential": a law that is typed under another key.
+  /// "force", "potential": other names of the keys for a formula.
   void refuse_other_words() {
     std::vector<std::string> const keys{"law", "energy", "influence"};
     for (auto const& [key, place, item] : section_.table().entries)
@@ -373,7 +373,7 @@ class InfluenceReader {
     } else if (by_) {
       reading_.mistake(by_->place, "by: it says who acts; on whom says 'on', which is missing");
     } else if (section_.has("one_way")) {
-      return;  // as before, of which section_.finish() tells
+      return;  // as before, which section_.finish() reports
     } else if (!external()) {
       reading_.mistake(section_.place(),
                        "[[influences]] does not say on whom: add on = \"atoms\", between = [\"a\", "
@@ -384,7 +384,7 @@ class InfluenceReader {
     }
   }
 
-  /// Slow laws have a scheme of their own, one for each number of steps.
+  /// Slow laws have a scheme of their own, one per number of steps.
   void read_every() {
     std::int64_t const steps = options_.every;
     if (steps == 1 || !pairs_ || !reading_.box) return;
@@ -437,7 +437,7 @@ class InfluenceReader {
     if (a_ && a_->particles && a_->molecules.bonds.empty())
       wrong("the ensemble has no bonds; its [[ensembles]] gives them, bonds = \"chain\" or [[0, 1], [0, 2]]");
   }
-  /// What a law that is installed meanwhile does between bonded particles.
+  /// Bonded factors of the laws that are installed while this object exists.
   struct BondedFactors {
     BondedFactors(PairScheme& scheme, ReadEnsemble const& of, std::vector<double> const& factors)
         : scheme(scheme), of(of), given(!factors.empty()) {
@@ -487,7 +487,7 @@ class InfluenceReader {
     act_on_bodies(parameters);
   }
 
-  /// From outside: events may set its parameters.
+  /// An external influence whose parameters events may set.
   void install_settable(ParameterValues const& parameters, AnyEnsemble& particles) {
     install_external(*pairs_, *law_, parameters, particles, only_ ? &*only_ : nullptr);
     auto const values = std::make_shared<ParameterValues>(parameters);
@@ -518,7 +518,7 @@ class InfluenceReader {
     }
   }
 
-  /// Whatever flows acts on bodies, too: each ensemble of vortices, and each law from outside, once.
+  /// Flows also act on bodies: each ensemble of vortices, and each external law, once.
   void act_on_bodies(ParameterValues const& parameters) {
     ParticleClass const* target = find_class(law_->target);
     if (!reading_.bodies || connect_ || only_ || a_->smooth() || !target || target->classical) return;
@@ -551,7 +551,7 @@ class InfluenceReader {
     return false;
   }
 
-  /// A mistake if periodic axes do not allow it; NaN: it is not known.
+  /// The cut-off; adds a mistake if periodic axes are too short for it. NaN: unknown.
   double reach_of_pairs() {
     auto const& own = options_.cutoff;
     if (!own && !reading_.run.cutoff_known) return std::numeric_limits<double>::quiet_NaN();
@@ -603,7 +603,7 @@ void read_influences(Section& document, Reading& reading) {
     std::size_t const before = reading.context.mistakes.count();
     for (auto const& one : influences_among(*table, reading)) {
       InfluenceReader(one, this_one, reading, true).read();
-      if (reading.context.mistakes.count() != before) break;  // the others have the same
+      if (reading.context.mistakes.count() != before) break;  // the others have the same mistakes
     }
   }
 }

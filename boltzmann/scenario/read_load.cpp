@@ -1,4 +1,4 @@
-// Reads load = { kind = ... }: where the particles of an ensemble are.
+// Reads load = { kind = ... }: the positions of the particles of an ensemble.
 #include <boltzmann/core/quantity_text.hpp>
 #include <boltzmann/loaders/jitter.hpp>
 #include <boltzmann/loaders/path_load.hpp>
@@ -24,10 +24,10 @@ namespace {
 
 constexpr double max_particles = 1e9;
 
-/// What so many particles take, with their influences, the schemes' copies and lists.
+/// The memory of this number of particles, with their influences, the schemes' copies and lists.
 double memory_of(double count, std::size_t row_bytes) { return count * (3.0 * static_cast<double>(row_bytes) + 200); }
 
-/// What `mode` or `wave_number` say.
+/// The wave of `mode` or `wave_number`.
 Wave wave_of(LoadOptions const& options, Section& section, Reading& reading) {
   int const axis = options.axis[0] - 'x';
   if (section.has("mode") == section.has("wave_number"))
@@ -72,7 +72,7 @@ VelocityRipple read_velocity_ripple(Item const& item, Reading& reading) {
   return {wave, options.amplitude, options.component.empty() ? wave.axis : options.component[0] - 'x'};
 }
 
-/// What each kind reads besides its options, and how it puts particles in their places.
+/// For each kind: the keys that it reads besides its options, and the function that places particles.
 Loader::Way const& Loader::way_of(std::string_view kind) {
   static std::array const all{
       Way{"block", &Loader::read_block, &Loader::load_block},
@@ -139,7 +139,7 @@ bool Loader::read(std::optional<std::size_t> number, Place const& number_place, 
   return count_ > 0;
 }
 
-/// Of a lattice: as it says, or as its density does, or the number of those that fill a block.
+/// The spacing of a lattice: as given, or from its density, or from the number of particles in a block.
 void Loader::read_spacing(std::optional<std::size_t> number, Place const& number_place) {
   block_.spacing = 1;
   if (options_.spacing) {
@@ -214,7 +214,7 @@ void Loader::load_plummer(AnyEnsemble& particles) {
                            .seed = reading_.run.seed});
 }
 
-/// In a plane nothing tells a normal.
+/// In two dimensions there is no normal.
 double Loader::read_disc() {
   if (options_.normal && reading_.dimension == 2)
     reading_.mistake(section_.place("normal"), "normal: a disc in a plane has none; leave it out");
@@ -285,7 +285,7 @@ void Loader::load_vortex_ring(AnyEnsemble& particles) {
   vortex_ring_load(particles, ring);
 }
 
-/// Of `fill` and `positions`.
+/// For `fill` and `positions`.
 void Loader::load_places(AnyEnsemble& particles) {
   auto const dimension = static_cast<std::size_t>(particles.dimension());
   for (std::size_t i = 0; i < count_; ++i) std::copy_n(positions_.data() + i * dimension, dimension, particles.row(i));
@@ -300,7 +300,7 @@ FrameOptions Loader::frame_options() const {
           .units = reading_.context.units};
 }
 
-/// How many cells there are along each axis, into block_.counts; their product.
+/// Reads the number of cells along each axis into block_.counts; returns their product.
 double Loader::read_counts() {
   int const dimension = reading_.dimension;
   double count = 1;
@@ -348,13 +348,13 @@ double Loader::read_block() {
   if (dimension > 0 && spacing_known_) {
     try {
       volume_ = std::pow(block_.spacing / spacing_for_density(block_.kind, dimension, 1), dimension);
-    } catch (Error const&) {  // there is no such lattice: load() says so
+    } catch (Error const&) {  // there is no such lattice; load() reports it
     }
   }
   return count;
 }
 
-/// A block that is longer than its periodic axis goes on at the other end, through what is there.
+/// A block longer than its periodic axis would wrap around and overlap itself.
 void Loader::refuse_overlapping_ends(std::array<double, 3> const& lengths) {
   for (int a = 0; a < reading_.dimension && reading_.box; ++a) {
     double const length = lengths[static_cast<std::size_t>(a)], axis = reading_.box->length(a);
@@ -372,7 +372,7 @@ void Loader::refuse_overlapping_ends(std::array<double, 3> const& lengths) {
   }
 }
 
-/// The block from low to high, without them the box.
+/// The block from low to high; default: the box.
 void Loader::read_corners() {
   if (std::exchange(corners_read_, true)) return;
   int const dimension = reading_.dimension;
@@ -399,7 +399,7 @@ void Loader::read_where() {
 
 bool Loader::is_wanted(double const* place) { return !where_ || (*where_)(place) != 0; }
 
-/// Of a packing fraction at a distance the number follows.
+/// The number follows from a packing fraction and a distance.
 double Loader::read_random() {
   read_corners();
   read_where();
@@ -421,7 +421,7 @@ double Loader::read_random() {
   return count;
 }
 
-/// From low to high; where an axis is whole, it has its images.
+/// The box from low to high; a whole periodic axis remains periodic.
 Box Loader::part_of_box() const {
   Box const& box = *reading_.box;
   std::array<Boundary, 3> boundaries{Boundary::open, Boundary::open, Boundary::open};
@@ -539,7 +539,7 @@ double Loader::read_file() {
 
 namespace {
 
-/// Whether the edges of a lattice are not those of a box with right angles.
+/// True if the edges of a lattice are not those of a rectangular box.
 bool is_skew(std::array<double, 9> const& lattice) {
   for (std::size_t k = 0; k < 9; ++k)
     if (k % 4 != 0 && lattice[k] != 0) return true;
@@ -561,7 +561,7 @@ std::vector<double> Loader::element_masses() const {
   return boltzmann::element_masses(frame_, options_.species, reading_.context.units);
 }
 
-/// Where neither the file nor the scenario says what its numbers are in. Positions in angstrom are what XYZ has.
+/// Units if neither the file nor the scenario sets them. XYZ files have positions in angstrom.
 std::string Loader::assumed_units(AnyEnsemble const& particles, std::vector<std::string> const& given) const {
   UnitSystem const& units = reading_.context.units;
   if (units.is_reduced() || !reading_.base_known || !options_.units.empty()) return "";
@@ -586,7 +586,7 @@ std::string Loader::assumed_units(AnyEnsemble const& particles, std::vector<std:
                      ensemble_, file_name(), join(assumed));
 }
 
-/// Of a stored frame: fields that the class does not have, and another box.
+/// Notes on a stored frame: fields that the class does not have, and another box.
 std::vector<std::string> Loader::notes_of_frame(AnyEnsemble const& particles) const {
   std::vector<std::string> all, unread;
   auto const& stored = stored_->find(options_.ensemble);
@@ -667,7 +667,7 @@ double Loader::read_frame() {
   return count;
 }
 
-/// Numbers of a run in another base are converted; those of the same base keep their bits.
+/// Numbers of a run with another base are converted; those with the same base keep their bits.
 void Loader::load_frame(AnyEnsemble& particles) {
   stored_->load(stored_frame_, options_.ensemble, particles);
   UnitSystem const& units = reading_.context.units;

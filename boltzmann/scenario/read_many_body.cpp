@@ -1,4 +1,4 @@
-// Reads [embedded_atoms] and [stillinger_weber]: atoms that feel their surroundings.
+// Reads [embedded_atoms] and [stillinger_weber]: atoms with many-body forces.
 #include <boltzmann/scenario/field_formulas.hpp>
 #include <boltzmann/scenario/read_options.hpp>
 #include <boltzmann/scenario/reading.hpp>
@@ -15,13 +15,13 @@
 namespace boltzmann {
 namespace {
 
-/// Whether a force moves these particles, and nothing else.
+/// True if these particles are moved only by forces.
 bool moved_by_force(ReadEnsemble const& ensemble) {
   return !ensemble.smooth() && ensemble.particles->influence_size() == std::size_t(ensemble.particles->dimension()) &&
          ensemble.particles->find_field("mass") && ensemble.particles->find_field("velocity");
 }
 
-/// Gives those that `on` names to add(), or all that a force moves.
+/// Calls add() for the ensembles that `on` names, or for all that forces move.
 template <class Add>
 void add_atoms(Item const& table, char const* heading, Reading& reading, Add const& add) {
   Section section(table, heading, reading.context);
@@ -39,7 +39,7 @@ void add_atoms(Item const& table, char const* heading, Reading& reading, Add con
   for (auto const& one : on) catch_errors(reading, section.place("on"), [&] { add(*one.ensemble->particles); });
 }
 
-/// The element of each ensemble that `elements` names.
+/// The element of each ensemble in `elements`.
 std::map<std::string, std::string> read_elements(Item const& table, Reading& reading) {
   std::map<std::string, std::string> elements;
   Section section(table, "[embedded_atoms]", reading.context);
@@ -61,7 +61,7 @@ std::map<std::string, std::string> read_elements(Item const& table, Reading& rea
   return elements;
 }
 
-/// One of the formulas of embedded atoms, of the one name `of`. Empty, and a mistake, if it is wrong.
+/// A formula of embedded atoms as a function of the variable `of`. Empty, and a mistake, if it is invalid.
 std::function<double(double)> read_function(Section& section, char const* key, char const* of, Dimension argument,
                                             Dimension value, std::vector<FormulaParameter> const& parameters,
                                             Reading& reading) {

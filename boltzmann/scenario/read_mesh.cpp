@@ -1,4 +1,4 @@
-// Reads [mesh]: which field the particles make on a mesh; without it, schemes are pairs alone.
+// Reads [mesh]: the field of the particles on a mesh; without it, schemes are pairs only.
 #include <boltzmann/laws/laplace.hpp>
 #include <boltzmann/scenario/laws.hpp>
 #include <boltzmann/scenario/read_options.hpp>
@@ -66,7 +66,7 @@ void read_plain_mesh(Section& section, MeshOptions const& options, LaplaceLaw co
     mesh->form(options.poisson);
     mesh->precision(options.precision);
     if (boundary) read_boundary(*boundary, *mesh, reading);
-    if (reading.context.mistakes.count() == before) mesh->grid();  // refuses what is too large for the memory
+    if (reading.context.mistakes.count() == before) mesh->grid();  // throws if there is not enough memory
     reading.result->schemes.push_back(std::move(mesh));
   });
 }
@@ -101,7 +101,7 @@ void read_mesh(Item const& table, Reading& reading) {
 
 namespace {
 
-/// What two charges at the distance r do to each other, less than all of it by a part.
+/// The interaction of two charges at the distance r, times a factor that subtracts a part of it.
 FormulaLaw less_by(double part, double constant, int dimension) {
   double const turns = dimension == 3 ? 4 * pi : dimension == 2 ? 2 * pi : 2;
   char const* const energy = dimension == 3   ? "k*p.charge*q.charge/r"
@@ -110,8 +110,7 @@ FormulaLaw less_by(double part, double constant, int dimension) {
   return FormulaLaw::energy(energy, {{"k", -part * constant / turns}});
 }
 
-/// What charges that are bonded do to each other by the mesh and its pairs (the nearest images) is taken away again, all
-/// of it or a part.
+/// For bonded charges, subtracts all or part of their interaction by the mesh and its pairs (the nearest images).
 void add_bonded_factors(MeshScheme& mesh, Reading& reading) {
   auto const& factors = reading.mesh.bonded_factors;
   bool bonded = false;
@@ -153,7 +152,8 @@ bool find_mesh_fields(Reading& reading, Place const& place, std::string_view wha
     if (!ensemble.particles) return false;
   try {
     reading.mesh.fields = mesh_fields_of(schemes);
-  } catch (std::runtime_error const& failure) {  // of the user's input or, with particles outside, of the physics
+    // an error of the user's input or, if particles are outside, of the physics
+  } catch (std::runtime_error const& failure) {
     reading.mistake(place_of(failure.what(), reading), failure.what());
     return reading.mesh.usable = false;
   }

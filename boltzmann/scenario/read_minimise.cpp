@@ -1,4 +1,4 @@
-// Reads [minimise]: particles that are moved downhill before the run.
+// Reads [minimise]: energy minimisation before the run.
 #include <boltzmann/scenario/read_options.hpp>
 #include <boltzmann/scenario/reading.hpp>
 

@@ -1,4 +1,4 @@
-// Reads molecules: which particles are bonded, and tuples of them.
+// Reads molecules: bonds between particles, and tuples of them.
 #include <boltzmann/core/input_file.hpp>
 #include <boltzmann/dissipation/rigid_motion.hpp>
 #include <boltzmann/scenario/read_options.hpp>
@@ -13,7 +13,7 @@
 namespace boltzmann {
 namespace {
 
-/// So many whole numbers on each line of a file; behind # anything.
+/// N integers on each line of a file; comments start with #.
 template <std::size_t N>
 std::vector<std::array<std::uint32_t, N>> read_file(std::string const& path) {
   auto const file = open_text(path, "file");
@@ -66,7 +66,7 @@ std::vector<std::array<std::uint32_t, N>> read_list(Item const& item, char const
   return all;
 }
 
-/// A list or { file = "..." }; numbers are within a molecule, and repeated for each, if there are molecules.
+/// A list or { file = "..." }. Numbers are relative to a molecule, and repeated for each, if there are molecules.
 template <std::size_t N>
 std::vector<std::array<std::uint32_t, N>> read_tuples(Item const& item, char const* key, AnyEnsemble const* particles,
                                                       ReadMolecules const& molecules, char const* example,
@@ -96,7 +96,7 @@ std::vector<std::array<std::uint32_t, N>> read_tuples(Item const& item, char con
   return all;
 }
 
-/// Whether the text "bonds" stands there, and the ensemble has bonds.
+/// True if the item is the text "bonds", and the ensemble has bonds.
 bool means_bonds(Item const& item, char const* key, ReadEnsemble const* of, Reading& reading) {
   if (!item.is(Item::Kind::text) || !read_word(item, key, {"bonds"}, reading.context)) return false;
   if (of && of->particles && of->molecules.bonds.empty())
@@ -151,7 +151,7 @@ std::vector<DihedralMembers> read_dihedrals(Item const& item, ReadEnsemble const
 
 namespace {
 
-/// From one table to rigid bonds.
+/// Creates rigid bonds from one table.
 void read_rigid(Item const& table, Reading& reading) {
   std::size_t const before = reading.context.mistakes.count();
   Section section(table, "[[rigid_bonds]]", reading.context);

@@ -25,7 +25,7 @@ std::vector<std::string> vortex_laws() {
   return names;
 }
 
-/// The law of vortices, where the word names one.
+/// The law of vortices, if the word names one.
 std::optional<VortexLaw> read_vortex_law(Section& section, Reading& reading) {
   Item const* word = section.find("law");
   auto const names = vortex_laws();

@@ -1,4 +1,4 @@
-// One function for each kind of member.
+// One function per kind of member.
 #include <boltzmann/scenario/read_options.hpp>
 
 #include <fmt/format.h>
@@ -181,13 +181,13 @@ class OptionReader {
   OptionMeaning const& meaning_;
 };
 
-/// Nothing: it is not known.
+/// Nothing if it is unknown.
 std::optional<Dimension> dimension_in(int space, OptionKind const& kind) {
   if (kind.by_space == 0) return kind.dimension;
   return space > 0 ? std::optional(*kind.dimension * pow(dimensions::length, kind.by_space * space)) : std::nullopt;
 }
 
-/// The object is as it is without keys.
+/// The object has its default values.
 void explain_options(Section& section, OptionTable const& options, void* object, int space) {
   if (!section.explained()) return;
   for (Option option : options) {
@@ -207,7 +207,7 @@ void read_options(Section& section, OptionTable const& options, void* object, Op
     auto const place = option.place(object);
     bool const of_scenario =
         !option.read_by_code && (option.kind.form == Form::ensembles || option.kind.form == Form::particles);
-    // An example with a unit says nothing where there are none.
+    // An example with a unit is useless in a scenario without units.
     bool const plain =
         option.needed.starts_with('"') && option.kind.form == Form::number && section.context().units.is_reduced();
     if (!option.needed.empty() && !section.need(option.key, option.key + " = " + (plain ? "1" : option.needed))) return;

@@ -1,4 +1,4 @@
-// Reads [[diagnoses]] and [output]: what is measured and written.
+// Reads [[diagnoses]] and [output]: measurements and output files.
 #include <boltzmann/diagnoses/derived.hpp>
 #include <boltzmann/diagnoses/diagnosis_catalogue.hpp>
 #include <boltzmann/diagnoses/field_measures.hpp>
@@ -49,7 +49,7 @@ std::vector<Column> columns_of(ScenarioSimulation const& scenario) {
   return columns;
 }
 
-/// The one ensemble that is named, or that there is.
+/// The ensemble that is named, or the only one.
 ReadEnsemble const* one_ensemble(DiagnosisParameters const& parameters, Reading const& reading) {
   for (auto const& ensemble : reading.ensembles)
     if (parameters.ensembles.empty() ? reading.ensembles.size() == 1
@@ -58,7 +58,7 @@ ReadEnsemble const* one_ensemble(DiagnosisParameters const& parameters, Reading 
   return nullptr;
 }
 
-/// Numbers in it.
+/// The selected particles in it.
 void read_group(Section& section, DiagnosisParameters& parameters, Reading& reading) {
   ReadEnsemble const* one = one_ensemble(parameters, reading);
   bool const parts = section.has("where") && section.has("formula");
@@ -71,7 +71,7 @@ void read_group(Section& section, DiagnosisParameters& parameters, Reading& read
                     "particles: numbers are those of one ensemble; add ensembles = [\"...\"]");
 }
 
-/// And those on the other side of pairs.
+/// The particles on the other side of pairs.
 void read_partners(Section& section, DiagnosisParameters& parameters, Reading& reading) {
   Item const* item = section.find("partners");
   if (!item) return;
@@ -82,7 +82,7 @@ void read_partners(Section& section, DiagnosisParameters& parameters, Reading& r
   if (which && which->empty()) reading.mistake(item->place, "partners: there is no such particle");
 }
 
-/// Null, and a mistake, if there is none such.
+/// Null, and a mistake, if the kind is unknown.
 DiagnosisKind const* read_kind(Section& section, Reading& reading) {
   std::vector<std::string> names;
   for (auto const& kind : diagnosis_kinds()) names.push_back(kind.name);
@@ -98,7 +98,7 @@ DiagnosisKind const* read_kind(Section& section, Reading& reading) {
 
 bool is_typed(DiagnosisKind const& kind) { return kind.options.find("formula") != nullptr; }
 
-/// What its table says.
+/// The parameters in its table.
 DiagnosisParameters read_parameters_of(DiagnosisKind const& kind, Section& section, Reading& reading) {
   DiagnosisParameters parameters;
   parameters.units = reading.context.units;
@@ -106,7 +106,7 @@ DiagnosisParameters read_parameters_of(DiagnosisKind const& kind, Section& secti
     parameters.formula_parameters = read_formula_parameters(section, reading);
     parameters.formula_parts = read_formula_parts(section, reading);
   }
-  // Of a histogram, once everything else has been read.
+  // The dimension for a histogram, after everything else has been read.
   auto const shown = [&]() -> std::optional<Dimension> {
     if (!all_loaded(reading) || !is_typed(kind)) return std::nullopt;
     auto known = parameters;
@@ -114,7 +114,7 @@ DiagnosisParameters read_parameters_of(DiagnosisKind const& kind, Section& secti
     try {
       return dimension_of_formula(known);
     } catch (FormulaError const&) {
-      return std::nullopt;  // of which the diagnosis will tell
+      return std::nullopt;  // which the diagnosis reports
     }
   };
   read_options(section, kind.options, &parameters,
@@ -132,7 +132,7 @@ DiagnosisParameters read_parameters_of(DiagnosisKind const& kind, Section& secti
   return parameters;
 }
 
-/// Gives it what is on the mesh. False, and a mistake, if there is none.
+/// Sets the mesh fields of a diagnosis. False, and a mistake, if there is no mesh.
 bool take_mesh_fields(DiagnosisKind const& kind, DiagnosisParameters& parameters, Section& section, Reading& reading) {
   if (!find_mesh_fields(reading, section.place("kind"), fmt::format("diagnosis '{}'", kind.name))) {
     reading.diagnoses_known = false;
@@ -143,7 +143,7 @@ bool take_mesh_fields(DiagnosisKind const& kind, DiagnosisParameters& parameters
                                                   [&] { mesh_quantity(parameters.mesh_fields, parameters.quantity); });
 }
 
-/// Error if it is none for these particles, in this box, beside these diagnoses.
+/// Throws Error if it is not possible for these particles, in this box, with these diagnoses.
 std::unique_ptr<Diagnosis> make_checked(DiagnosisKind const& kind, DiagnosisParameters& parameters,
                                         Reading const& reading) {
   std::vector<Scheme*> schemes;
@@ -166,7 +166,7 @@ std::unique_ptr<Diagnosis> make_checked(DiagnosisKind const& kind, DiagnosisPara
   return diagnosis;
 }
 
-/// The key of which an error tells.
+/// The place of the key that an error names.
 Place place_of_error(DiagnosisKind const& kind, Section& section) {
   if (kind.of_mesh)
     for (char const* key : {"mode", "axis"})
@@ -197,7 +197,7 @@ void read_diagnosis(Item const& table, Reading& reading) {
   });
 }
 
-/// In which units results are.
+/// The units of results.
 void read_output_units(Item const& item, Reading& reading) {
   if (!item.is(Item::Kind::table))
     return reading.mistake(item.place,
@@ -238,7 +238,7 @@ void read_output(Section& document, Item& resolved, Reading& reading) {
     plan.checkpoint = options.checkpoint;
     plan.mesh = options.mesh;
     if (plan.mesh > 0) find_mesh_fields(reading, section.place("mesh"), "mesh: a series of frames");
-    recorded = {options.trajectory != 0, options.diagnoses != 0};  // what could not be read has been told of
+    recorded = {options.trajectory != 0, options.diagnoses != 0};  // reading errors have already been reported
     if (Item const* units = section.find("units")) read_output_units(*units, reading);
     for (Item const* picture : find_tables(section, "pictures")) read_picture(*picture, reading);
     section.finish();

@@ -1,4 +1,4 @@
-// Reads which particles of an ensemble are meant: their numbers, all, those at the edge, those where a formula says so.
+// Reads selections of particles of an ensemble: numbers, all, those at the edge, those where a formula is true.
 #include <boltzmann/loaders/fields.hpp>
 #include <boltzmann/scenario/field_formulas.hpp>
 #include <boltzmann/scenario/field_values.hpp>

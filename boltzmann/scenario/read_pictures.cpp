@@ -1,4 +1,4 @@
-// Reads [[output.pictures]] and [[views]]: what is drawn.
+// Reads [[output.pictures]] and [[views]]: the drawings.
 #include <boltzmann/core/toml_text.hpp>
 #include <boltzmann/pictures/picture_options.hpp>
 #include <boltzmann/scenario/read_options.hpp>
@@ -18,7 +18,7 @@ std::vector<AnyEnsemble*> particles_of(Reading const& reading) {
   return all;
 }
 
-/// A mesh of which nothing is known has left a mistake.
+/// An invalid mesh has already left a mistake.
 bool mesh_known(Section const& section, PicturePlan const& plan, Reading& reading) {
   return plan.drawing != "mesh" || find_mesh_fields(reading, section.place("drawing"), "a picture of the mesh");
 }
@@ -36,7 +36,7 @@ bool of_diagnoses(PicturePlan const& plan) {
          (plan.drawing == "spectrum" && plan.x == "time");
 }
 
-/// What is wrong with the keys of a scenario's picture besides.
+/// Further checks of the keys of a scenario's picture.
 void check_keys(Section& section, PicturePlan const& plan, Reading& reading) {
   auto const mistake = [&](char const* key, std::string const& what) { section.mistake(key, what); };
   check_picture_keys(section, plan, reading.dimension, reading.box ? &*reading.box : nullptr);
@@ -50,7 +50,7 @@ void check_keys(Section& section, PicturePlan const& plan, Reading& reading) {
                                    plan.drawing));
 }
 
-/// What is drawn: all keys that pictures and views share. False, and a mistake, if nobody knows which drawing is meant.
+/// The drawing: all keys that pictures and views share. False, and a mistake, if the drawing is unknown.
 bool read_plan(Section& section, PicturePlan& plan, std::string const& title, Reading& reading) {
   plan.drawing = section.has("x") || section.has("y") ? "phase-space" : "cartesian";
   if (Item const* item = section.find("drawing")) {
@@ -73,7 +73,7 @@ bool read_plan(Section& section, PicturePlan& plan, std::string const& title, Re
   return true;
 }
 
-/// Whether that can be drawn of these ensembles and diagnoses.
+/// Checks that it can be drawn of these ensembles and diagnoses.
 void check_plan(Section const& section, PicturePlan const& plan, Reading& reading) {
   bool const known = (reading.diagnoses_known || !of_diagnoses(plan)) && mesh_known(section, plan, reading);
   check(plan, particles_of(reading), column_names(reading), sources_of(plan, reading),

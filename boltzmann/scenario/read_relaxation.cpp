@@ -1,4 +1,4 @@
-// Reads [relaxation]: vorticity that is turned towards the curl of the flow.
+// Reads [relaxation]: vorticity that relaxes towards the curl of the flow.
 #include <boltzmann/scenario/read_options.hpp>
 #include <boltzmann/scenario/reading.hpp>
 

@@ -1,4 +1,4 @@
-// Reads `rezone` of [smooth]: which smooth particles are split and merged while the simulation runs.
+// Reads `rezone` of [smooth]: splitting and merging of smooth particles during the run.
 #include <boltzmann/scenario/read_options.hpp>
 #include <boltzmann/scenario/reading.hpp>
 #include <boltzmann/schemes/smooth/smooth_options.hpp>

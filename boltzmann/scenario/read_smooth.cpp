@@ -13,7 +13,7 @@
 namespace boltzmann {
 namespace {
 
-/// A table in braces under a key; a mistake with the example if it is something else.
+/// An inline table under a key; a mistake with the example if it is something else.
 Item const* inner_table(Section& section, std::string_view key, std::string_view example, Reading& reading) {
   Item const* item = section.find(key);
   if (!item || item->is(Item::Kind::table)) return item;
@@ -46,7 +46,7 @@ std::vector<PressurePoint> read_points(Item const& item, Reading& reading) {
   return points;
 }
 
-/// Of one that is tabulated.
+/// For a tabulated material.
 std::optional<PressureTable> read_table(Section& section, Reading& reading) {
   Item const *points = section.find("points"), *file = section.find("file");
   if ((points == nullptr) == (file == nullptr)) {
@@ -64,7 +64,7 @@ std::optional<PressureTable> read_table(Section& section, Reading& reading) {
   return table;
 }
 
-/// Of one that is typed.
+/// For a typed material.
 std::optional<FormulaMaterial> read_state_formulas(Section& section, Reading& reading) {
   StateFormulas formulas;
   formulas.units = reading.context.units;
@@ -193,7 +193,7 @@ void add_to_smooth(Item const& table, Reading& reading) {
   catch_errors(reading, reading.smooth.heating_place, [&] { scheme.check_heating(); });
   if (reading.context.mistakes.none() && reading.smooth.variable && !matter.empty()) try {
       scheme.variable_range(*reading.smooth.variable);
-    } catch (std::runtime_error const& failure) {  // of the user's input or of the physics
+    } catch (std::runtime_error const& failure) {  // an error of the user's input or of the physics
       reading.mistake(reading.smooth.variable_place, failure.what());
       return;
     }

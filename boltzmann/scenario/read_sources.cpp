@@ -1,4 +1,4 @@
-// Reads what schemes of fields (mesh, multipoles) share: the law that makes the field, and whom it acts on.
+// Reads the common keys of schemes of fields (mesh, multipoles): the law of the field, and its ensembles.
 #include <boltzmann/laws/laplace.hpp>
 #include <boltzmann/scenario/laws.hpp>
 #include <boltzmann/scenario/reading.hpp>
@@ -78,14 +78,14 @@ std::pair<ReadEnsemble*, ReadEnsemble*> two_ensembles(Item const& between, Readi
 
 namespace {
 
-/// Whom a law can act between.
+/// The ensembles between which a law can act.
 class Fitting {
  public:
   explicit Fitting(std::optional<LaplaceLaw> const& law) : vortices_(!law), sign_(law ? law->constant : 0) {}
 
-  /// Whether it acts on an ensemble that nobody names.
+  /// True if it acts on an ensemble by default.
   bool is_made_for_it(SourceKind const& kind) const { return vortices_ ? kind.vorticity >= 0 : fits(kind) && kind.own; }
-  /// Why a class can't make the field, or as test particles can't feel it; empty if it can.
+  /// Why a class can't create the field, or, as test particles, can't feel it; empty if it can.
   std::string lack(SourceKind const& kind, bool test) const {
     if (vortices_ && test)
       return kind.carried && kind.vorticity < 0 ? "" : "which feels no flow without making one; class Tracer does";

@@ -1,4 +1,4 @@
-// Reads what an internal energy stands for: the heat capacity of mesoparticles, and the temperature of their inside.
+// Reads the relation of internal energy and temperature: the heat capacity of mesoparticles.
 #include <boltzmann/laws/two_columns.hpp>
 #include <boltzmann/scenario/field_formulas.hpp>
 #include <boltzmann/scenario/field_values.hpp>
@@ -21,7 +21,7 @@ std::vector<std::string> classes_with_internal_energy() {
   return names;
 }
 
-/// file, and what a one in its two columns stands for.
+/// file, and the units of its two columns.
 std::optional<StateLaw> read_file(Section& section, Item const& file, Reading& reading) {
   std::size_t const before = reading.context.mistakes.count();
   double const degree = section.quantity("temperature", dimensions::temperature, positive).value_or(1);

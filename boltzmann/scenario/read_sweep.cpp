@@ -1,5 +1,5 @@
-// Reads [sweep]: which keys take which values, how many seeds, what is tabulated and drawn of all runs; and makes the
-// scenario of one run of it.
+// Reads [sweep]: the values of keys, the number of seeds, tables and pictures over all runs; and creates the scenario
+// of one run.
 #include <boltzmann/core/quantity_text.hpp>
 #include <boltzmann/pictures/figure.hpp>
 #include <boltzmann/scenario/read_options.hpp>
@@ -18,7 +18,7 @@ namespace {
 constexpr std::int64_t max_seeds = 10'000;
 constexpr std::size_t max_runs = 100'000;
 
-/// A value as a person reads it: 300 K, [2000 m/s, 0].
+/// A value in readable form: 300 K, [2000 m/s, 0].
 std::string words_of(Item const& item) {
   switch (item.kind) {
     case Item::Kind::text:
@@ -44,7 +44,7 @@ std::string words_of(Item const& item) {
   return "";
 }
 
-/// The last word of a path that is no number: "velocity" of box.walls.0.velocity.0.
+/// The last word of a path that is not a number: "velocity" of box.walls.0.velocity.0.
 std::string last_word(std::string const& path) {
   std::string rest = path;
   while (true) {
@@ -62,7 +62,7 @@ struct Number {
   std::string unit;
 };
 
-/// A number as it is shown; nothing if the value is none.
+/// A number as it is displayed; nothing if the value is not a number.
 std::optional<Number> number_of(Item const& item, UnitSystem const& units) {
   if (item.is_number()) return Number{item.number, ""};
   if (!item.is(Item::Kind::text) || units.is_reduced()) return std::nullopt;
@@ -76,7 +76,8 @@ std::optional<Number> number_of(Item const& item, UnitSystem const& units) {
   }
 }
 
-/// The numbers of these values; nothing if one of them has none, or another unit. Zero has any.
+/// The numbers of these values; nothing if one of them is not a number, or has another unit. Zero is compatible with
+/// any unit.
 bool find_numbers(std::vector<Item const*> const& values, UnitSystem const& units, SweepKey& key) {
   std::vector<double> numbers;
   std::optional<std::string> known;
@@ -94,7 +95,7 @@ bool find_numbers(std::vector<Item const*> const& values, UnitSystem const& unit
   return true;
 }
 
-/// The same for arrays, of which one component differs.
+/// The same for arrays with one component that differs.
 void find_numbers_of_arrays(SweepValues::Key const& read, UnitSystem const& units, SweepKey& key) {
   std::vector<SweepKey> differing;
   std::size_t const components = read.values.front().elements.size();
@@ -149,7 +150,7 @@ std::vector<std::string> column_names(std::vector<SweepColumn> const& columns) {
   return names;
 }
 
-/// Columns of diagnoses: a text with commas, or an array of texts.
+/// Columns of diagnoses: a comma-separated text, or an array of texts.
 std::vector<std::string> read_columns(Item const& item, std::string_view key, SweepPlan const& plan, Reading& reading) {
   std::vector<std::string> words;
   if (item.is(Item::Kind::text)) {
@@ -178,7 +179,7 @@ std::vector<std::string> read_columns(Item const& item, std::string_view key, Sw
   return words;
 }
 
-/// What is to the right in a picture of points: a key, or a column.
+/// The horizontal axis of a picture of points: a key, or a column.
 std::string read_right(Section& section, SweepPlan const& plan, Reading& reading) {
   auto const word_of = [&](SweepKey const& key, Place const& place) {
     if (key.numbers.empty())
@@ -295,7 +296,7 @@ void override_vary(Item& document, std::vector<std::string> const& assignments, 
     sweep = &document.entries.back();
     sweep->item.place = vary.place;
   }
-  if (!sweep->item.is(Item::Kind::table)) return;  // told of when it is read
+  if (!sweep->item.is(Item::Kind::table)) return;  // reported when it is read
   std::erase_if(sweep->item.entries, [](Entry const& entry) { return entry.key == "vary" || entry.key == "labels"; });
   Place const place = vary.place;
   sweep->item.entries.push_back({"vary", place, std::move(vary)});
@@ -380,7 +381,7 @@ void read_sweep(Section& document, Reading& reading) {
     plan.vary.push_back(std::move(key));
   }
   plan.columns = sweep_columns(*reading.result);
-  // Without their ensembles diagnoses are not made.
+  // Diagnoses are not created without their ensembles.
   if (Item const* list = document.item("diagnoses"); list && list->elements.size() != reading.result->diagnoses.size())
     reading.diagnoses_known = false;
   if (reading.diagnoses_known && plan.columns.size() == 1)

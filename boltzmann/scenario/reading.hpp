@@ -1,4 +1,4 @@
-// Reading: what the readers of a scenario's tables hand to each other. Private to this room.
+// Reading: data that the readers of a scenario's tables exchange. Private to this module.
 #pragma once
 
 #include <boltzmann/boundaries/box.hpp>
@@ -37,7 +37,7 @@ namespace boltzmann {
 struct Reading;
 struct SchemeEntry;
 
-/// A field that is found by a particle's neighbours, and who they are by the names of ensembles; none: all particles.
+/// A field computed from a particle's neighbours, with the names of their ensembles; empty: all particles.
 struct ReadNeighbourField {
   NeighbourField field;
   std::vector<std::string> among;
@@ -46,24 +46,24 @@ struct ReadNeighbourField {
 
 /// A class that the file derives from another one.
 struct ReadClass {
-  ParticleClass kind;  ///< in the space of the file; without variants: there are mistakes in it
+  ParticleClass kind;  ///< in the space of the file; without variants after mistakes
   FieldRates rates;
   Place place;
   std::vector<ReadNeighbourField> neighbour_fields = {};
 };
 
-/// Which particles of an ensemble are bonded, and how many of them make a molecule (0: they are all one).
+/// The bonded particles of an ensemble, and the number of particles of a molecule (0: all are one molecule).
 struct ReadMolecules {
   std::size_t length = 0;
   std::vector<BondMembers> bonds = {};
 };
 
-/// What [[ensembles]] says of thermal velocities that hold for the simulation as a whole (settle_velocities()).
+/// The initial velocities of an ensemble that depend on the simulation as a whole (settle_velocities()).
 struct ReadVelocities {
   double temperature = 0;
   bool remove_drift = false, exact = false;
   std::array<double, 3> drift{};
-  std::vector<std::uint32_t> given = {};  ///< particles whose velocities are said
+  std::vector<std::uint32_t> given = {};  ///< particles with given velocities
   Place place;
 };
 
@@ -71,14 +71,14 @@ struct ReadVelocities {
 struct ReadEnsemble {
   std::string name;
   Place place, load_place, range_place;
-  Item const* table = nullptr;  ///< null: no table of the file is its own
+  Item const* table = nullptr;  ///< null: it has no table in the file
   ParticleClass const* kind = nullptr;
   AnyEnsemble* particles = nullptr;
   std::unique_ptr<Integrator> integrator;
-  std::optional<BoundMaterial> material;  ///< of smooth particles
-  std::optional<StateLaw> state;          ///< of internal energies
+  std::optional<BoundMaterial> material;  ///< for smooth particles
+  std::optional<StateLaw> state;          ///< for internal energies
   ReadMolecules molecules = {};
-  std::string element = {};  ///< "Cu"; empty: not told
+  std::string element = {};  ///< "Cu"; empty: unknown
   std::optional<ReadVelocities> velocities = {};
 
   bool smooth() const { return kind && kind->matter != Matter::none; }
@@ -86,18 +86,18 @@ struct ReadEnsemble {
 
 struct ReadRun : RunOptions {
   std::optional<double> step;
-  std::optional<double> courant;  ///< instead of the step: which part of the Courant step
+  std::optional<double> courant;  ///< instead of the step: fraction of the Courant step
   bool cutoff_known = true;       ///< false: there is one, but it could not be read
-  std::optional<Item> stop;       ///< the condition that ends the run, once the diagnoses are known
+  std::optional<Item> stop;       ///< the condition that ends the run, set once the diagnoses are known
   Place place, cutoff_place, skin_place, step_place, time_place, tolerance_place, substeps_place;
 };
 
 struct ReadMesh {
   std::vector<double> bonded_factors = {};
   Place bonded_place = {};
-  bool usable = true;      ///< false: there is a [mesh], but mistakes in it; what needs a mesh is not to be checked
-  Place background_place;  ///< or that of the table
-  std::vector<MeshField const*> fields;  ///< once somebody has asked for them
+  bool usable = true;                    ///< false: there is an invalid [mesh]; skip checks that need a mesh
+  Place background_place;                ///< or that of the table
+  std::vector<MeshField const*> fields;  ///< computed on demand
 };
 
 struct ReadRezone {
@@ -105,11 +105,11 @@ struct ReadRezone {
   std::int64_t every = 1;
   Rezoning policy;
   Item const* on = nullptr;             ///< null: all ensembles
-  std::vector<AnyEnsemble*> ensembles;  ///< once they are there
+  std::vector<AnyEnsemble*> ensembles;  ///< set when they exist
 };
 
 struct ReadSmooth {
-  bool wanted = false;  ///< there is a [smooth], with mistakes or without
+  bool wanted = false;  ///< true if there is a [smooth], even an invalid one
   bool from_continuity = false;
   Place heating_place, skin_place;
   std::optional<VariableRange> variable;
@@ -120,13 +120,14 @@ struct ReadSmooth {
 struct ReadBarostat {
   BarostatOptions options;
   Place place;
-  std::function<double(double)> pressure = {}, temperature = {};  ///< of the time; null: those of the options
+  std::function<double(double)> pressure = {}, temperature = {};  ///< function of time; null: constant, as in the
+                                                                  ///< options
 };
 
-/// What an event may set: by the path of its key, "dissipation.0.temperature".
+/// A value that an event may set, by the path of its key, "dissipation.0.temperature".
 struct Settable {
   std::string path;
-  /// What setting it to this value does; null, and a mistake, if it can't be.
+  /// Returns the action that sets this value; null, and a mistake, if it is invalid.
   std::function<std::function<void(Simulation&)>(Item const& value, Reading& reading)> read;
 };
 
@@ -146,18 +147,18 @@ struct ReadDye {
   DyeOptions options;
 };
 
-/// What a run records for pictures to show.
+/// The records of a run that pictures can show.
 struct Recorded {
   bool trajectory = false, diagnoses = true;
 };
 
-/// What brings the particles to a temperature before the run.
+/// The thermalisation of particles before the run.
 struct ReadEquilibration {
-  std::shared_ptr<Dissipation> bath;  ///< null: nothing does
+  std::shared_ptr<Dissipation> bath;  ///< null: none
   std::uint64_t steps = 0;
 };
 
-/// A file of particles, and which of its species ensembles have taken.
+/// A file of particles, and the species that ensembles have used.
 struct ReadFile {
   struct Species {
     std::size_t particles = 0, ensembles = 0;
@@ -166,7 +167,7 @@ struct ReadFile {
   std::map<std::string, Species> species = {};
 };
 
-/// Everything that has been read so far. What could not be read is empty, and has left a mistake.
+/// Everything that has been read so far. Members that could not be read are empty, and have left a mistake.
 struct Reading {
   ReadContext context;
   std::unique_ptr<ScenarioSimulation> result = std::make_unique<ScenarioSimulation>();
@@ -174,7 +175,7 @@ struct Reading {
   int dimension = 0;  ///< of the box; 0: unknown
   std::optional<Box> box;
   ReadRun run;
-  std::vector<std::pair<SchemeEntry const*, Item const*>> schemes;  ///< those that the file has, with their tables
+  std::vector<std::pair<SchemeEntry const*, Item const*>> schemes;  ///< those in the file, with their tables
   ReadMesh mesh;
   ReadSmooth smooth;
   std::vector<ReadEnsemble> ensembles;
@@ -182,21 +183,23 @@ struct Reading {
   ReadEquilibration equilibration = {};
   ReadRelaxation relaxation = {};
   std::optional<MinimiseOptions> minimisation = {};
-  std::vector<std::pair<Scheme*, std::int64_t>> slow = {};  ///< and every how many steps they are calculated
-  std::vector<Place> diagnosis_places = {};                 ///< of each in the result
+  std::vector<std::pair<Scheme*, std::int64_t>> slow = {};  ///< and the number of steps between their calculations
+  std::vector<Place> diagnosis_places = {};                 ///< of each one in the result
   std::vector<Place> track_places = {};                     ///< of pictures that show tracks
   bool diagnoses_known = true;  ///< false: one could not be read, so that columns may be missing
   Recorded recorded = {};
-  std::vector<std::function<void(Simulation&)>> adaptations = {};   ///< what changes particles between steps
-  std::vector<std::shared_ptr<RigidBonds>> rigid = {};              ///< one for each ensemble that has some
-  std::vector<std::function<void(Simulation&)>> behind_baths = {};  ///< what follows dissipations
-  std::unique_ptr<PanelScheme> bodies = {};  ///< until it stands behind the other schemes; null: there are none
+  std::vector<std::function<void(Simulation&)>> adaptations = {};   ///< functions that add changes of particles between
+                                                                    ///< steps
+  std::vector<std::shared_ptr<RigidBonds>> rigid = {};              ///< one per ensemble that has some
+  std::vector<std::function<void(Simulation&)>> behind_baths = {};  ///< functions that run after the dissipations
+  std::unique_ptr<PanelScheme> bodies = {};  ///< until it is added after the other schemes; null: there are none
   std::vector<std::pair<std::size_t, std::pair<std::string, Place>>> sticky_bodies =
-      {};  ///< by number, and what they shed
+      {};  ///< by number, and the vortices that they shed
   Place bodies_place = {};
   Place shear_place = {};                     ///< in [box]
-  bool shear_is_right = true;                 ///< else what needs it is not asked
-  std::set<std::string> acts_on_bodies = {};  ///< what has been told to: a law from outside, an ensemble of vortices
+  bool shear_is_right = true;                 ///< otherwise checks that need it are skipped
+  std::set<std::string> acts_on_bodies = {};  ///< influences already added to bodies: an external law, an ensemble of
+                                              ///< vortices
   std::vector<std::unique_ptr<ReadClass>> classes = {};
   std::vector<ReadBarostat> barostats = {};
   std::optional<Place> jump = {};  ///< a law whose energy jumps at its cut-off, without a tail
@@ -205,20 +208,20 @@ struct Reading {
   std::map<std::string, ReadFile> files = {};  ///< of particles, by path and frame
 
   void mistake(Place const& place, std::string message) { context.mistakes.add(place, std::move(message)); }
-  /// A line that `bzm check` and a run print, once: "note: ..." or "warning: ...".
+  /// Adds a line that `bzm check` and a run print, once: "note: ..." or "warning: ...".
   void note(std::string line);
   std::vector<std::string> ensemble_names() const;
-  /// The ensemble that a word names; nullptr and a mistake if there is none.
+  /// The ensemble that a word names; nullptr and a mistake if it is unknown.
   ReadEnsemble* ensemble(Item const& word, std::string_view key);
   double boltzmann_constant() const;
-  /// A class of the file or a shipped one; nullptr if there is none of that name, or mistakes in it.
+  /// A class of the file or a shipped one; nullptr if it is unknown or invalid.
   ParticleClass const* find_class(std::string_view name) const;
   std::vector<std::string> class_names() const;
-  /// A mistake if a formula that acts on particles reads a field that is found only when somebody looks.
+  /// Adds a mistake if a formula that acts on particles reads a field that is computed only for observers.
   void refuse_neighbour_fields(std::string_view formula, std::string_view key, Place const& place);
 };
 
-/// Calls function(); an Error becomes a mistake at the place. False if there was one.
+/// Calls function(). An Error becomes a mistake at the place, and the result is false.
 template <class Function>
 bool catch_errors(Reading& reading, Place const& place, Function const& function) {
   try {
@@ -230,72 +233,71 @@ bool catch_errors(Reading& reading, Place const& place, Function const& function
   }
 }
 
-/// A number of a dimension that an event may set.
+/// A number with a dimension that an event may set.
 Settable settable_number(std::string path, Dimension dimension, NumberRange range,
                          std::function<void(Simulation&, double)> set);
 
-/// Where the ensemble is loaded that an error of a lower room names.
+/// The place of the load table of the ensemble that an error names.
 Place place_of(std::string const& message, Reading const& reading);
 
 /// 0, 1, ...: all particles.
 std::vector<std::uint32_t> all_indices(AnyEnsemble const& particles);
-/// Which particles: an array of numbers, "all", "edge" (with `margin`). Empty and a mistake if it is none of these.
-/// `ensemble` may be null: then only the form is checked.
-/// `where` may have another meaning there (`parts`): then it is left alone.
+/// Selected particles: an array of numbers, "all", "edge" (with `margin`). Empty and a mistake if it is none of these.
+/// `ensemble` may be null: then only the form is checked. If `parts`, `where` has another meaning and is ignored.
 std::optional<std::vector<std::uint32_t>> read_particles(Section& section, AnyEnsemble const* ensemble,
                                                          Reading& reading, bool parts = false);
 
-/// Numbers, or a formula that is true for those that are meant.
+/// Particles by numbers, or by a formula that is true for them.
 std::optional<std::vector<std::uint32_t>> read_chosen(Item const& item, char const* key, AnyEnsemble const* ensemble,
                                                       Reading& reading);
 
-/// The parameters of a law or a material, `owner` in messages, that stand in a table. Nothing, and mistakes, if one is
-/// missing or wrong.
+/// The parameters of a law or a material in a table; `owner` is its name in messages. Nothing, and mistakes, if one is
+/// missing or invalid.
 std::optional<ParameterValues> read_parameters(Section& section, std::string_view owner,
                                                std::vector<Parameter> const& parameters, Reading& reading);
 
 void read_units(Section& document, Reading& reading);
 void read_box(Section& document, Reading& reading);
 void read_run(Section& document, Reading& reading);
-/// What follows from [run] when everything is loaded: a Courant step, the number of steps of a time. They stand in
-/// `resolved` instead of what was asked for.
+/// Completes [run] when everything is loaded: a Courant step, the number of steps of a time. The results replace the
+/// original values in `resolved`.
 void settle_run(Item& resolved, Reading& reading);
-/// A mistake: the periodic axis is shorter than the cut-off.
+/// Adds a mistake: the periodic axis is shorter than the cut-off.
 void refuse_cutoff(Place const& place, double cutoff, int axis, Reading& reading);
-/// Makes the schemes that the file has tables of.
+/// Creates the schemes that have tables in the file.
 void read_schemes(Section& document, Reading& reading);
 void read_mesh(Item const& table, Reading& reading);
 void read_multipole(Item const& table, Reading& reading);
 void read_cylinder(Item const& table, Reading& reading);
 void read_smooth(Item const& table, Reading& reading);
-/// The law that makes the field of a mesh or of multipoles, with k or G, and its softening if the table has it.
+/// The law of the field of a mesh or of multipoles, with k or G, and its softening if the table has it.
 std::optional<LaplaceLaw> read_field_law(Section& section, OptionTable const& keys, Reading& reading,
                                          std::vector<std::string> const& other_laws = {});
-/// The keys that this leaves.
+/// The remaining keys.
 OptionTable keys_but_of_the_law(OptionTable const& all);
 void read_ensembles(Section& document, Reading& reading);
-/// Makes remove_drift and exact_temperature hold for the particles that move, with the degrees of freedom that they have
-/// in the simulation: frozen particles and rigid bonds have taken their part since the velocities were drawn.
+/// Applies remove_drift and exact_temperature to the particles that move, with their degrees of freedom in the
+/// simulation. Frozen particles and rigid bonds were not yet known when the velocities were drawn.
 void settle_velocities(Reading& reading);
-/// Places particles anew, at a distance from others that are there.
+/// Places particles again, at a distance from existing ones.
 using PlaceAgain = std::function<void(AnyEnsemble& particles, Box const& now, std::vector<AnyEnsemble const*> others,
                                       double distance)>;
-/// Particles for an ensemble that there is, made as `table` says (the key `add` of an event), and where it says nothing as
-/// the ensemble's own does. Random numbers are those of an ensemble of this `name`. Null, and mistakes, if it is wrong.
-/// `again` becomes how they are placed at a distance from others.
+/// Particles to be added to an existing ensemble, as defined by `table` (the key `add` of an event), with defaults from
+/// the ensemble's own table. Random numbers are those of an ensemble of this `name`. Null, and mistakes, if it is
+/// invalid. `again` is set to the function that places them at a distance from others.
 std::shared_ptr<AnyEnsemble const> read_addition(Item const& table, ReadEnsemble const& to, std::string const& name,
                                                  Reading& reading, PlaceAgain& again);
-/// What an ensemble of this class is made of. Nothing, and mistakes, if it is missing or wrong.
+/// The material of an ensemble of this class. Nothing, and mistakes, if it is missing or invalid.
 std::optional<BoundMaterial> read_material(Section& ensemble, ParticleClass const& kind, Reading& reading);
-/// Whether particles of this class have an internal energy of their own (the field "internal_energy").
+/// True if particles of this class have an internal energy (the field "internal_energy").
 bool has_internal_energy(ParticleClass const& kind);
-/// heat_capacity: which temperature an internal energy stands for. Nothing if it is missing, or wrong.
+/// heat_capacity: the relation of internal energy and temperature. Nothing if it is missing or invalid.
 std::optional<StateLaw> read_state_law(Section& ensemble, ParticleClass const& kind, Reading& reading);
-/// internal_energy = { temperature = "300 K" }. Nothing if the energies are given in another way, or it is wrong.
+/// internal_energy = { temperature = "300 K" }. Nothing if the energies are given in another way, or it is invalid.
 std::optional<double> read_internal_temperature(Section& ensemble, ParticleClass const& kind, Reading& reading);
 /// Sets the field "temperature" to that of the internal energies.
 void find_temperatures(AnyEnsemble& particles, StateLaw const& law);
-/// Loads ensembles into the schemes; what none of these takes is for pairs.
+/// Adds ensembles to the schemes; those that fit none of these are added to pairs.
 void load_schemes(Reading& reading);
 void add_to_mesh(Item const& table, Reading& reading);
 void add_to_multipole(Item const& table, Reading& reading);
@@ -309,88 +311,90 @@ struct NamedEnsemble {
   ReadEnsemble* ensemble;
   Place place;  ///< of its name
 };
-/// The ensembles that the value of a key names, one or a list (null: none); a mistake where one is none, or named twice.
+/// The ensembles that the value of a key names, one or a list (null: unknown); adds a mistake for an unknown or
+/// repeated name.
 std::vector<NamedEnsemble> named_ensembles(Item const* item, std::string_view key, Reading& reading);
-/// The two that `between` names; null where one could not be read, both if they are not two.
+/// The two ensembles of `between`; null if one could not be read, both null if there are not two.
 std::pair<ReadEnsemble*, ReadEnsemble*> two_ensembles(Item const& between, Reading& reading);
-/// An ensemble that acts on itself, named twice.
+/// Rejects an ensemble that acts on itself and is named twice.
 void refuse_twice(Item const& second, std::string_view key, Reading& reading);
-/// Gives a scheme of a field with this constant the ensembles that are named by `on`, or all that fit; and those that
-/// `test_particles` names to `test`, if there is such a key. False: something is wrong with those that are there.
+/// Adds to a scheme of a field with this constant the ensembles named by `on`, or all that fit; and with `test` those
+/// named by `test_particles`, if there is such a key. Returns false after a mistake.
 using AddToField = std::function<void(AnyEnsemble&, SourceKind const&)>;
 bool add_sources(Item const& table, char const* heading, std::optional<LaplaceLaw> const& law, AddToField const& add,
                  Reading& reading, AddToField const& test = {});
-/// Reads the key `rezone` of [smooth]; finds its ensembles once they are there; lets the simulation rezone them.
+/// Reads the key `rezone` of [smooth]; finds its ensembles when they exist; adds rezoning to the simulation.
 void read_rezone(Section& smooth, Reading& reading);
 void load_rezone(Reading& reading);
 void add_rezoners(Reading const& reading);
 /// Reads [[remesh]], [[split_cores]] and [[outflow]] into reading.adaptations.
 void read_adaptations(Section& document, Reading& reading);
-/// Fills reading.mesh.fields for what looks at the mesh, from `place` on. False if there is no mesh or it can't be
-/// calculated, with one mistake for all that ask.
+/// Fills reading.mesh.fields for users of the mesh, from `place` on. False if there is no mesh or it can't be
+/// calculated, with a single mistake for all users.
 bool find_mesh_fields(Reading& reading, Place const& place, std::string_view what);
-/// Reads [[dye]]: where tracers are released while the run goes on; lets the simulation do it.
+/// Reads [[dye]]: places where tracers are released during the run; adds them to the simulation.
 void read_dyes(Section& document, Reading& reading);
 void add_dyes(Reading const& reading);
-/// The class of their panels, which no scenario names.
+/// The class of their panels, which scenarios can't name.
 ParticleClass const& body_class();
-/// Reads [[bodies]] and makes their ensembles; lets their sheet carry all that a flow carries; puts the scheme behind
-/// all others and lets the simulation keep particles out of bodies.
+/// Reads [[bodies]] and creates their ensembles. Their sheet advects all particles that a flow advects. The scheme
+/// comes after all others, and the simulation keeps particles outside of bodies.
 void read_bodies(Section& document, Reading& reading);
 void load_bodies(Reading& reading);
 void add_bodies(Reading& reading);
 void keep_out_of_bodies(Reading const& reading);
-/// Reads `bonds` of [[ensembles]], of molecules of a length; without particles only the form is checked.
+/// Reads `bonds` of [[ensembles]], for molecules of this size; without particles only the form is checked.
 void read_bonds(Section& section, AnyEnsemble const* particles, ReadMolecules& molecules, Reading& reading);
-/// Whether connect = "bonds": a mistake if there are none.
+/// True for connect = "bonds"; adds a mistake if there are none.
 bool connects_bonds(Item const& item, ReadEnsemble const* of, Reading& reading);
-/// Of an influence on this ensemble (it may be null): "bonds", a list, or a file.
+/// Tuples of an influence on this ensemble (which may be null): "bonds", a list, or a file.
 std::vector<AngleMembers> read_angles(Item const& item, ReadEnsemble const* of, Reading& reading);
 std::vector<DihedralMembers> read_dihedrals(Item const& item, ReadEnsemble const* of, Reading& reading);
-/// Reads [[rigid_bonds]]; gives their ensembles integrators that keep them, and lets velocities follow behind baths.
+/// Reads [[rigid_bonds]]; sets integrators of their ensembles that enforce the constraints, and corrects velocities
+/// after heat baths.
 void read_rigid_bonds(Section& document, Reading& reading);
-/// That of the scenario, made when it is first asked for.
+/// The scheme of the scenario, created on demand.
 MoleculeScheme& molecule_scheme(Reading& reading);
 void read_influences(Section& document, Reading& reading);
-/// parameters = { depth = "0.1 eV" } and where = { s = "(sigma/r)^6" }, which formulas of a table may use.
+/// parameters = { depth = "0.1 eV" } and where = { s = "(sigma/r)^6" } for the formulas of a table.
 std::vector<FormulaParameter> read_formula_parameters(Section& section, Reading& reading);
 std::vector<FormulaPart> read_formula_parts(Section& section, Reading& reading);
-/// Whether formulas can have a name: letters, digits and _.
+/// True for valid names in formulas: letters, digits and _.
 bool is_formula_name(std::string_view name);
-/// A mistake at the parameter or part of the table that the error is of; false if it is of none.
+/// Adds a mistake at the parameter or part of the table that the error names; false if it names none.
 bool part_mistake(Section const& section, FormulaPartError const& error, Reading& reading);
 /// The same, or else at `item`, called `key`.
 void refuse_formula(Section const& section, FormulaPartError const& error, Item const& item, std::string_view key,
                     Reading& reading);
-/// Reads [[classes]]: those that the scenario derives. Gives the fields of their particles their rates.
+/// Reads [[classes]]: those that the scenario derives. Sets the rates of the fields of their particles.
 void read_classes(Section& document, Reading& reading);
 void load_rates(Reading& reading);
-/// Fields of classes that are found by neighbours: whose they are, and who is one.
+/// Fields of classes computed from neighbours: their ensembles, and those of the neighbours.
 void load_neighbour_fields(Reading& reading);
-/// Reads [[dissipation]], friction and noise, and [equilibrate]; lets the simulation have them.
+/// Reads [[dissipation]], friction and noise, and [equilibrate]; adds them to the simulation.
 void read_dissipations(Section& document, Reading& reading);
 void add_dissipations(Reading const& reading);
-/// Reads [[barostat]]; lets the simulation have it.
+/// Reads [[barostat]]; adds it to the simulation.
 void read_barostats(Section& document, Reading& reading);
 void add_barostats(Reading& reading);
-/// Reads [[events]], when all that they may set has been read; lets the simulation have them.
+/// Reads [[events]], after everything that they may set; adds them to the simulation.
 void read_events(Section& document, Reading& reading);
 void add_events(Reading& reading);
-/// Reads [relaxation]; lets the simulation have it.
+/// Reads [relaxation]; adds it to the simulation.
 void read_relaxation(Section& document, Reading& reading);
 void add_relaxation(Reading& reading);
-/// Reads [minimise]; lets the simulation do it first.
+/// Reads [minimise]; the simulation executes it first.
 void read_minimise(Section& document, Reading& reading);
 void add_minimisation(Reading const& reading);
 void read_diagnoses(Section& document, Reading& reading);
-/// `resolved` gets the intervals that the file leaves to us.
+/// Writes default intervals into `resolved`.
 void read_output(Section& document, Item& resolved, Reading& reading);
-/// Reads the condition of [run] stop, when diagnoses and their interval are known.
+/// Reads the condition of [run] stop, after diagnoses and their interval.
 void read_stop(Reading& reading);
-/// The columns that diagnoses.csv will have; the axes that the box has (all three if it is not known).
+/// The columns of diagnoses.csv; the axes of the box (all three if it is unknown).
 std::vector<std::string> column_names(Reading const& reading);
 bool all_loaded(Reading const& reading);
-/// A mistake if particles that are spread so far have more images between walls than one.
+/// Adds a mistake if particles with this range have more than one image between walls.
 void check_range_of_weight(Section& section, double range, Box const& box);
 void read_picture(Item const& table, Reading& reading);
 /// Reads [[views]], the diagnoses for the window.

@@ -1,4 +1,4 @@
-// From the text of a scenario to a simulation: the tables in order, every mistake in one go.
+// Converts the text of a scenario to a simulation: reads the tables in order, and reports all mistakes together.
 #include <boltzmann/core/input_file.hpp>
 #include <boltzmann/pictures/picture.hpp>
 #include <boltzmann/scenario/reading.hpp>
@@ -71,7 +71,7 @@ void make_simulation(Reading& reading) {
   result.simulation->speak_in(result.units);
 }
 
-/// What advances and changes its particles.
+/// Adds integrators and adaptations.
 void complete_simulation(Reading& reading) {
   ScenarioSimulation& result = *reading.result;
   bool const radau = std::any_of(reading.ensembles.begin(), reading.ensembles.end(), [](ReadEnsemble const& ensemble) {
@@ -97,7 +97,7 @@ void complete_simulation(Reading& reading) {
   for (auto const& adapt : reading.adaptations) adapt(*result.simulation);
   add_dyes(reading);
   keep_out_of_bodies(reading);
-  result.simulation->threads(reading.run.threads);  // what it has by now, baths and friction too
+  result.simulation->threads(reading.run.threads);  // including baths and friction
 }
 
 void check_simulation(Reading& reading) {
@@ -116,7 +116,7 @@ void check_simulation(Reading& reading) {
   }
 }
 
-/// Whether a text of it names an influence.
+/// True if one of its texts names an influence.
 bool reads_influences(Item const& item) {
   return item.text.find("influence") != std::string::npos ||
          std::any_of(item.elements.begin(), item.elements.end(), reads_influences) ||
@@ -136,7 +136,7 @@ void build(Item& document, Reading& reading) {
   if (reading.context.mistakes.none()) settle_velocities(reading);
 }
 
-/// Of [run] steps and time, which say the same: what the command line says goes before what the file says.
+/// [run] steps and time are alternatives: the command line overrides the file.
 void settle_length(Item& document) {
   Entry* run = document.find("run");
   if (!run || !run->item.is(Item::Kind::table)) return;

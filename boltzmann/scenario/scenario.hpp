@@ -1,5 +1,5 @@
-// Scenario: a simulation as a file. TOML text in, a simulation that is ready to run out; every mistake of the file in
-// one go.
+// Scenario: a simulation as a file. Converts a TOML text to a simulation that is ready to run, and reports all mistakes
+// of the file together.
 #pragma once
 
 #include <boltzmann/core/error.hpp>
@@ -26,7 +26,7 @@ namespace boltzmann {
 
 class PairScheme;
 
-/// Every mistake of a scenario: one line each, `file:line:column: what was found; what is allowed; the nearest right
+/// All mistakes of a scenario: one line each, `file:line:column: what was found; what is allowed; the most similar
 /// word`.
 struct ScenarioErrors : Error {
   explicit ScenarioErrors(std::vector<std::string> all, std::vector<ScenarioParameter> absent = {},
@@ -36,21 +36,21 @@ struct ScenarioErrors : Error {
   std::vector<ScenarioParameter> absent;      ///< as in ScenarioSimulation, as far as the tables could be read
 };
 
-/// A picture that a scenario asks for, or (by its name) a view in the window.
+/// A picture of a scenario, or (by its name) a view in the window.
 struct PicturePlan : Picture {
   std::string name = {};
 };
 
-/// How often what is written.
+/// Output intervals.
 struct OutputPlan {
   std::int64_t diagnoses = 0, trajectory = 0, mesh = 0, checkpoint = 0;  ///< steps between two; 0: never
   std::vector<PicturePlan> pictures;
 };
 
-/// A class that a scenario derives, as it says it.
+/// A class derived by a scenario, as text.
 struct DerivedClassText {
   std::string name, base, doc;
-  std::vector<Field> fields;                               ///< its own
+  std::vector<Field> fields;                               ///< additional ones
   std::vector<std::pair<std::string, std::string>> rates;  ///< "d charge / dt" and its formula
 };
 
@@ -60,27 +60,28 @@ struct ScenarioSimulation {
   UnitSystem units;
   bool reduced = false;  ///< pure numbers: no units in files and pictures
   std::vector<std::unique_ptr<AnyEnsemble>> ensembles;
-  std::vector<std::unique_ptr<Scheme>> schemes;  ///< one or more, whose influences add up
-  PairScheme* pairs = nullptr;  ///< one of them, or what acts beside the mesh; null if all particles are smooth
+  std::vector<std::unique_ptr<Scheme>> schemes;  ///< one or more; their influences are added
+  PairScheme* pairs = nullptr;  ///< one of them, or the part of a mesh scheme for pairs; null if all particles are
+                                ///< smooth
   std::vector<std::unique_ptr<Dissipation>> dissipations;  ///< friction and noise
   std::unique_ptr<Simulation> simulation;
   std::vector<std::unique_ptr<Diagnosis>> diagnoses;
   std::int64_t steps = 0;
-  std::string stop;  ///< the condition that ends the run before; empty: none
+  std::string stop;  ///< a condition that ends the run early; empty: none
   std::function<bool(std::int64_t step, std::span<double const> values)> stop_when;  ///< the same, for Recording
   OutputPlan output;
   std::vector<PicturePlan> views;  ///< drawings for the window, by name
-  std::optional<SweepPlan> sweep;  ///< of a scenario that is to be run for several values or seeds
-  std::string resolved;  ///< the scenario as TOML with all overrides applied: what is stored beside the results
-  std::vector<ScenarioParameter> parameters;  ///< the values of the text, and what each may be
-  std::vector<ScenarioParameter> absent;      ///< keys that its tables could have, too; only for a page
-  std::vector<DerivedClassText> classes;      ///< its own
+  std::optional<SweepPlan> sweep;  ///< for a scenario that runs for several values or seeds
+  std::string resolved;            ///< the scenario as TOML with all overrides applied, stored beside the results
+  std::vector<ScenarioParameter> parameters;  ///< the values of the text with their allowed ranges
+  std::vector<ScenarioParameter> absent;      ///< further keys that its tables accept; only for a page
+  std::vector<DerivedClassText> classes;      ///< derived classes
   std::vector<TypedLaw> typed_laws;           ///< of pairs
-  std::vector<std::string> notes;  ///< "note: ..." or "warning: ...": what files hold and nothing uses, empty groups
-  std::vector<std::pair<std::string, std::string>> elements;  ///< of ensembles: "atoms", "Cu"
+  std::vector<std::string> notes;             ///< "note: ..." or "warning: ...": unused parts of files, empty groups
+  std::vector<std::pair<std::string, std::string>> elements;  ///< by ensemble: "atoms", "Cu"
 
   Box const& box() const { return schemes.front()->box(); }
-  /// The scheme of this kind, scheme<MeshScheme>(); null if there is none.
+  /// The scheme of this type, scheme<MeshScheme>(); null if there is none.
   template <class S>
   S* scheme() const {
     for (auto const& one : schemes)
@@ -89,33 +90,33 @@ struct ScenarioSimulation {
   }
 };
 
-/// The text of a scenario, and where it comes from.
+/// The text of a scenario, and its origin.
 struct ScenarioText {
   std::string text;
-  std::string file;    ///< what stands before line and column in messages
-  std::string name;    ///< of the scenario: the file's without its ending
-  std::string folder;  ///< where the files that it names are; empty: the present one
+  std::string file;    ///< precedes line and column in messages
+  std::string name;    ///< of the scenario: that of the file without its extension
+  std::string folder;  ///< base of relative paths; empty: the current folder
 };
-/// The text of a file; of standard input, whose scenario is called "stdin", if the path is "-". Error if it can't be
-/// read.
+/// The text of a file, or of standard input for the path "-", with the name "stdin". Throws Error if it can't be read.
 ScenarioText read_scenario(std::string const& path);
 
-/// Makes a simulation of a text. Throws ScenarioErrors with all its mistakes.
+/// Creates a simulation from a text. Throws ScenarioErrors with all its mistakes.
 std::unique_ptr<ScenarioSimulation> load_scenario(ScenarioText const& text, Overrides const& overrides = {});
 /// Reads a scenario file. Throws ScenarioErrors with all its mistakes, or Error if the file can't be read.
 std::unique_ptr<ScenarioSimulation> load_scenario(std::string const& path, Overrides const& overrides = {});
-/// The same from text; `name` stands for the file in messages.
+/// The same from text; `name` is the name of the file in messages.
 std::unique_ptr<ScenarioSimulation> parse_scenario(std::string const& text, std::string const& name,
                                                    Overrides const& overrides = {});
 
-/// One more diagnosis for a simulation that is there: the last of its `diagnoses`. The text holds one table [[diagnoses]].
-/// ScenarioErrors, and nothing has changed, if it can't be measured.
+/// Adds a diagnosis to an existing simulation, as the last of its `diagnoses`. The text has one table [[diagnoses]].
+/// Throws ScenarioErrors, without changes, if it can't be measured.
 void add_diagnosis(std::unique_ptr<ScenarioSimulation>& scenario, ScenarioText const& text);
 
 /// The folder of shipped scenarios, and the names in it ("copper", ...), sorted.
 std::string scenario_folder();
 std::vector<std::string> shipped_scenarios();
-/// The path of a scenario given as file, as shipped name or as "-", standard input; Error with the nearest name.
+/// The path of a scenario given as file, as shipped name or as "-", standard input. Throws Error with the most similar
+/// name.
 std::string find_scenario(std::string const& file_or_name);
 
 }  // namespace boltzmann

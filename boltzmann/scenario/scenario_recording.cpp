@@ -1,4 +1,4 @@
-// From a scenario to the recording of its run.
+// Creates the recording of a scenario's run.
 #include <boltzmann/scenario/scenario_recording.hpp>
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// From a scenario to the recording of its run.
+// Creates the recording of a scenario's run.
 #pragma once
 
 #include <boltzmann/recording/recording.hpp>
@@ -12,7 +12,7 @@ namespace boltzmann {
 /// The title of pictures and windows: the scenario's, else the name of the folder.
 std::string title_of(ScenarioSimulation const& scenario, std::string const& folder);
 
-/// A recording of all that the scenario asks for. Takes the scenario's diagnoses over.
+/// A recording of all output that the scenario defines. Moves the scenario's diagnoses into it.
 std::unique_ptr<Recording> make_recording(ScenarioSimulation& scenario, std::string const& folder,
                                           RecordingOptions const& options);
 

@@ -1,4 +1,4 @@
-// JSON by hand: texts, lists and objects of a schema.
+// Writes JSON directly: texts, lists and objects of a schema.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/options.hpp>
 #include <boltzmann/diagnoses/diagnosis_catalogue.hpp>
@@ -37,7 +37,7 @@ std::string list(std::vector<std::string> const& texts) {
   return "[" + all + "]";
 }
 
-/// Members in their order; a schema's value is JSON already.
+/// Members in their order; values are already JSON.
 using Members = std::vector<std::pair<std::string, std::string>>;
 std::string object(Members const& members) {
   std::string all;
@@ -46,7 +46,7 @@ std::string object(Members const& members) {
   return "{" + all + "}";
 }
 
-/// A table: with these keys and no others, or with others, too.
+/// A table: with these keys only, or open for others.
 std::string table(Members const& properties, bool closed, std::string_view doc = "") {
   Members members{{"type", quoted_text("object")}, {"properties", object(properties)}};
   if (closed) members.push_back({"additionalProperties", "false"});
@@ -62,8 +62,8 @@ std::string words(std::vector<std::string> const& all, std::string_view doc) {
 
 Members properties_of(OptionTable const& options, void* plain = nullptr);
 
-/// What may stand there, without its documentation.
-/// `plain`: an object with these options, from which the keys of a group are had; null: there is none.
+/// The allowed values, without documentation. `plain`: an object with these options, for the keys of a group; null:
+/// there is none.
 Members shape(Option const& option, void* plain = nullptr) {
   using enum OptionKind::Form;
   auto const& kind = option.kind;
@@ -76,7 +76,7 @@ Members shape(Option const& option, void* plain = nullptr) {
   switch (kind.form) {
     case flag:
       return {{"type", quoted_text("boolean")}};
-    case whole:  // 1e6 is a whole number
+    case whole:  // 1e6 is an integer
       return limits({{"type", quoted_text("number")}, {"multipleOf", "1"}});
     case number:
       return limits({{"type", list({"number", "string"})}});
@@ -140,14 +140,14 @@ void replace(Members& members, std::string const& key, std::string value) {
     found->second = std::move(value);
 }
 
-/// One kind of several in one place: its word, and the keys that it has.
+/// One of several kinds in one place: its word and its keys.
 struct KindOf {
   std::string name, doc;
   OptionTable const* options;
 };
 
-/// A table with a key that chooses the kind: with the keys of all, each documented for those that have it. What is
-/// common to all that have a key is asked of it.
+/// A table with a key that selects the kind. It has the keys of all kinds, each documented for those that have it. The
+/// shape of a key is what all its kinds have in common.
 std::string kinds(std::string const& key, std::vector<KindOf> const& all, Members more, bool closed = true) {
   std::vector<std::string> names;
   std::string doc;
@@ -205,7 +205,7 @@ std::pair<Members, Members> members_of_ensembles() {
   return {properties, set};
 }
 
-/// Classes may be derived, whose fields are keys, too.
+/// With derived classes, their fields are further keys.
 Members open_members_of_ensembles() {
   auto [properties, set] = members_of_ensembles();
   replace(properties, "set", tables(table(set, false)));
@@ -215,7 +215,8 @@ Members open_members_of_ensembles() {
   return properties;
 }
 
-/// With `derived`, what ensembles may be beside [[classes]]; else what they are closed to without them, in few words.
+/// With `derived`, the schema of ensembles with [[classes]]; otherwise only the restriction to the known keys, in a
+/// short form.
 std::string ensembles(bool derived) {
   std::vector<std::string> classes;
   std::string class_docs;
@@ -252,7 +253,7 @@ std::string addition() {
   return table(properties, false);
 }
 
-/// Classes that a scenario derives have fields of their own: other keys are fields, too.
+/// Classes derived by a scenario have additional fields, so other keys are allowed.
 std::string classes() {
   auto properties = properties_of(class_options());
   std::vector<std::string> bases;

@@ -1,6 +1,6 @@
-// The table of schemes. Influences of all that a scenario has add up. A further one is a table of options in its room,
-// a reader and an entry here; readers that have to know of it (laws, friction, diagnoses, views) are where `mesh` and
-// `smooth` of reading.hpp are used.
+// The table of schemes. The influences of all schemes of a scenario are added. To add a scheme, add a table of options
+// in its module, a reader and an entry here. Readers that depend on schemes (laws, friction, diagnoses, views) use
+// `mesh` and `smooth` of reading.hpp.
 #include <boltzmann/scenario/reading.hpp>
 #include <boltzmann/scenario/schemes.hpp>
 #include <boltzmann/schemes/cylinder/cylinder_flow.hpp>
@@ -59,7 +59,7 @@ void read_schemes(Section& document, Reading& reading) {
   for (auto const& entry : scheme_entries()) {
     std::size_t const before = reading.context.mistakes.count();
     Item const* table = find_table(document, entry.told.name);
-    if (reading.context.mistakes.count() != before) reading.mesh.usable = false;  // it may be meant to be a mesh
+    if (reading.context.mistakes.count() != before) reading.mesh.usable = false;  // it may be intended as a mesh
     if (!table) continue;
     reading.schemes.emplace_back(&entry, table);
     entry.read(*table, reading);
@@ -69,7 +69,7 @@ void read_schemes(Section& document, Reading& reading) {
 
 namespace {
 
-/// What acts between particles that are not smooth, and on them; a mesh has its own.
+/// Pair interactions of particles that are not smooth, and external laws; a mesh has its own.
 void load_pairs(Reading& reading) {
   ScenarioSimulation& result = *reading.result;
   bool const needed = !reading.smooth.wanted ||
@@ -93,7 +93,7 @@ void load_pairs(Reading& reading) {
   if (!result.pairs) return;
   if (reading.run.skin) result.pairs->skin(*reading.run.skin);
   if (!reading.run.shifted) result.pairs->shifted(false);
-  // Those that no law acts on are supervised, too.
+  // Particles without a law belong to it, too.
   for (auto const& ensemble : reading.ensembles)
     if (ensemble.particles && !ensemble.smooth())
       catch_errors(reading, ensemble.place, [&] { result.pairs->add(*ensemble.particles); });

@@ -1,4 +1,4 @@
-// Schemes: which schemes a scenario can have, each by a table of its own. Private to this room.
+// Schemes: the schemes that a scenario can have, each by a table of its own. Private to this module.
 #pragma once
 
 #include <boltzmann/scenario/tables.hpp>
@@ -10,12 +10,12 @@ namespace boltzmann {
 struct Item;
 struct Reading;
 
-/// A scheme that has a table; particles that none of these takes are supervised by pairs.
+/// A scheme that has a table. Particles that fit none of these belong to pairs.
 struct SchemeEntry {
   ScenarioTable told;
   std::vector<ScenarioTable> inner;                   ///< tables within its table
-  void (*read)(Item const& table, Reading& reading);  ///< makes the scheme; the ensembles are not read yet
-  void (*add)(Item const& table, Reading& reading);   ///< gives it its ensembles, if it could be made
+  void (*read)(Item const& table, Reading& reading);  ///< creates the scheme, before the ensembles are read
+  void (*add)(Item const& table, Reading& reading);   ///< adds its ensembles, if it could be created
 };
 
 /// In the order in which their influences are added.

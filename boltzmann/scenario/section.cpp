@@ -1,4 +1,4 @@
-// Reading values and saying what is wrong with them.
+// Reads values and reports errors in them.
 #include <boltzmann/core/foreign_words.hpp>
 #include <boltzmann/core/quantity_text.hpp>
 #include <boltzmann/scenario/catalogue_pages.hpp>
@@ -32,7 +32,7 @@ bool same_but_for_capitals(std::string const& key, std::vector<std::string> cons
   });
 }
 
-/// Where all words of a kind are listed; empty: nowhere.
+/// The command that lists all words of a kind; empty: none.
 std::string list_of(std::string_view kind) {
   static constexpr std::pair<std::string_view, char const*> lists[] = {
       {"diagnosis", "diagnoses"},    {"law", "laws"},
@@ -46,7 +46,7 @@ std::string list_of(std::string_view kind) {
 
 }  // namespace
 
-/// A word that is only written with other capitals, one with a similar name, or what another program's word is here.
+/// Advice on a word with another case, a similar name, or a term of another program.
 std::string hint_for(std::string const& word, std::vector<std::string> const& allowed) {
   std::string const near = did_you_mean(word, allowed);
   if (near.starts_with("; it is ") || same_but_for_capitals(word, allowed)) return near;
@@ -276,7 +276,7 @@ void Section::refuse(std::string_view key, std::string const& what) {
 
 namespace {
 
-/// "; it is a key of [run]": for one that is in the wrong table, unless it may stand in many.
+/// "; it is a key of [run]": for a key in the wrong table, unless many tables have it.
 std::string rather_in(std::string const& key, std::string const& title) {
   auto places = places_of_key(key);
   auto const classes = std::stable_partition(places.begin(), places.end(),

@@ -1,4 +1,4 @@
-// Where the shipped scenarios are.
+// Finds the shipped scenarios.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/scenario/scenario.hpp>
 
@@ -16,8 +16,8 @@ namespace boltzmann {
 namespace {
 namespace fs = std::filesystem;
 
-/// Where this code is installed: <prefix> of <prefix>/bin/bzm; of <prefix>/lib/.../_core.so, if a module holds it that another
-/// program, Python, has loaded. Empty, if that can't be told.
+/// The installation prefix of this code: <prefix> of <prefix>/bin/bzm; of <prefix>/lib/.../_core.so, if it is part of a
+/// module loaded by another program, Python. Empty if it is unknown.
 fs::path install_prefix() {
   static int const here = 0;
   Dl_info info;
@@ -36,7 +36,7 @@ fs::path install_prefix() {
 std::string scenario_folder() {
   if (char const* chosen = std::getenv("BOLTZMANN_SCENARIOS"); chosen && *chosen) return chosen;
   std::error_code failure;
-  // Installed: <prefix>/share/boltzmann/scenarios. Else the source tree.
+  // Installed: <prefix>/share/boltzmann/scenarios. Otherwise the source tree.
   fs::path const installed = install_prefix() / "share" / "boltzmann" / "scenarios";
   if (installed.is_absolute() && fs::is_directory(installed, failure)) return installed.string();
   return (fs::path(__FILE__).parent_path().parent_path().parent_path() / "scenarios").string();
@@ -62,7 +62,7 @@ std::string find_scenario(std::string const& file_or_name) {
   if (fs::is_directory(file_or_name, failure))
     throw Error(fmt::format("'{}' is a directory; a scenario is a file", file_or_name));
   auto const names = shipped_scenarios();
-  constexpr std::size_t few = 8;  // that a line can name
+  constexpr std::size_t few = 8;  // greatest number of names in a line
   std::string const there_are = names.size() > few
                                     ? fmt::format("are {} (bzm list)", names.size())
                                     : (names.size() == 1 ? "is " : "are ") + (names.empty() ? "none" : join(names));

@@ -1,4 +1,4 @@
-// The laws of scenarios that can be summed in single precision. Private to this room.
+// The laws of scenarios that can be summed in single precision. Private to this module.
 #pragma once
 
 #include <boltzmann/laws/vortex.hpp>
@@ -8,12 +8,12 @@
 
 namespace boltzmann {
 
-/// Of all pairs, for the rows of the law in their order (VortexRows).
+/// For all pairs, for the rows of the law in their order (VortexRows).
 struct SingleKernels {
   std::array<PairKernel, pair_layouts<VortexRows>> plain, algebraic;
 };
 
-/// Kernel units define it, once for each instruction set.
+/// Defined by kernel units, once per instruction set.
 template <InstructionSet set>
 SingleKernels const& single_kernels();
 

@@ -1,4 +1,4 @@
-// Drift and temperature of the start, once it is known which particles move and what bonds hold.
+// Initial drift and temperature, set when frozen particles and constraints are known.
 #include <boltzmann/diagnoses/measures.hpp>
 #include <boltzmann/scenario/reading.hpp>
 #include <boltzmann/simulation/velocity_changes.hpp>
@@ -11,9 +11,9 @@
 namespace boltzmann {
 namespace {
 
-constexpr double rounding = 1e-12;  // parts of the kinetic energy that are left alone, so that bits stay
+constexpr double rounding = 1e-12;  // relative change of the kinetic energy below which velocities keep their bits
 
-/// Particles that move and whose velocities were drawn.
+/// Particles that move and have random velocities.
 ChosenParticles drawn(ReadEnsemble const& ensemble) {
   auto given = ensemble.velocities->given;
   std::sort(given.begin(), given.end());
@@ -39,7 +39,7 @@ std::pair<double, double> mass_and_heat(ChosenParticles const& chosen, std::arra
   return {masses.value(), heat.value()};
 }
 
-/// Whether the velocities were changed.
+/// Returns true if the velocities were changed.
 bool remove_drift(ChosenParticles const& chosen, ReadVelocities const& wanted) {
   auto const common = common_velocity({chosen});
   auto const [mass, heat] = mass_and_heat(chosen, wanted.drift);

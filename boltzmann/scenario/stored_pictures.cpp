@@ -1,4 +1,4 @@
-// Particles and box of a stored run are filled with a frame, and drawn as those of a run that goes on are.
+// Loads a frame into the particles and the box of a stored run, and draws it like a live run.
 #include <boltzmann/scenario/stored_pictures.hpp>
 
 #include <fmt/format.h>
@@ -50,13 +50,13 @@ Canvas StoredPictures::canvas(std::int64_t number) {
   return drawn;
 }
 
-/// One scale of colours and of axes for all frames.
+/// Computes a common scale of colours and of axes for all frames.
 void StoredPictures::fix_scales() {
   double const infinity = std::numeric_limits<double>::infinity();
   double low = infinity, high = -infinity;
-  Canvas all;  // the corners of what each frame shows
+  Canvas all;  // the corners of all frames
   std::array<Axis, 2> axes;
-  // What shows the past has most to show at the end.
+  // Drawings of a history have the largest range at the end.
   bool const past = picture_.drawing == "time-series" || (picture_.drawing == "spectrum" && picture_.x == "time");
   bool first = true, with_axes = true;
   for (std::int64_t frame = past ? count() - 1 : 0; frame < count(); ++frame) {
@@ -68,7 +68,7 @@ void StoredPictures::fix_scales() {
     std::array<Axis, 2> const now{drawn.x_axis(), drawn.y_axis()};
     if (first) axes = now;
     first = false;
-    for (std::size_t a = 0; a < 2; ++a) {  // those of the drawing itself, NaN if it leaves them open
+    for (std::size_t a = 0; a < 2; ++a) {  // those of the drawing itself; NaN: automatic
       axes[a].low = std::isnan(now[a].low) ? now[a].low : std::min(axes[a].low, now[a].low);
       axes[a].high = std::isnan(now[a].high) ? now[a].high : std::max(axes[a].high, now[a].high);
     }

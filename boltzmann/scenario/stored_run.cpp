@@ -1,4 +1,4 @@
-// A program's run is ensembles that know their fields, and a scheme that knows their box.
+// A program's run becomes ensembles with fields, and a scheme with the box.
 #include <boltzmann/files/text_file.hpp>
 #include <boltzmann/particles/stored_ensemble.hpp>
 #include <boltzmann/pictures/picture_options.hpp>
@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Knows the box and whose particles are in it, and none of the laws.
+/// A scheme with the box and the ensembles, without laws.
 class StoredScheme final : public Scheme {
  public:
   using Scheme::Scheme;
@@ -32,7 +32,7 @@ class StoredScheme final : public Scheme {
   void make_reversible(double /*quantum*/) override { throw Error("a stored run can't be run backwards"); }
 };
 
-/// The tables of a run file.
+/// Reads the tables of a run file.
 struct RunReader {
   ReadContext& context;
 
@@ -134,7 +134,7 @@ struct RunReader {
     if (context.mistakes.none()) box.shear(shear);
   }
 
-  /// Fields stand one behind the other, whatever stood between them in the program.
+  /// Fields are contiguous, independent of their layout in the program.
   std::unique_ptr<AnyEnsemble> ensemble(Item const& table, int dimension) {
     Section section(table, "[[ensembles]]", context);
     std::string name, class_name;

@@ -1,4 +1,4 @@
-// The values of a [sweep] as they stand in a document, and the document of one of its runs. Private to this room.
+// The values of a [sweep] in a document, and the document of one of its runs. Private to this module.
 #pragma once
 
 #include <boltzmann/scenario/document.hpp>
@@ -26,22 +26,21 @@ struct SweepValues {
   std::size_t count() const { return keys.empty() ? 1 : keys.front().values.size(); }
 };
 
-/// What varies, and how many seeds there are.
+/// The varied keys, and the number of seeds.
 SweepValues read_sweep_values(Item const& sweep, Mistakes& mistakes);
 
-/// What "--vary key=[values]" of the command line puts into [sweep] instead of what varies there, and of its labels.
+/// Applies "--vary key=[values]" of the command line: replaces the varied keys of [sweep] and its labels.
 void override_vary(Item& document, std::vector<std::string> const& assignments, Mistakes& mistakes);
 
-/// A mistake for each key that the command line has set and the sweep varies: its value would be lost.
+/// Adds a mistake for each key that the command line has set and the sweep varies, because its value would be lost.
 void refuse_varied(Item const& document, Mistakes& mistakes);
 
-/// Makes the scenario of one run out of that of the sweep: the values stand where they belong, the seed is counted up,
-/// and there is no [sweep] any more.
+/// Converts the scenario of the sweep to that of one run: sets the values and the seed, and removes [sweep].
 void choose_run(Item& document, std::size_t run, Mistakes& mistakes);
 
-/// The document as TOML that can be read from any folder: [sweep] knows where the scenario's files are.
+/// The document as TOML that can be read from any folder: [sweep] contains the folder of the scenario's files.
 std::string sweep_text(Item document, std::string const& folder);
-/// That folder; empty if it is not told.
+/// The folder in that document; empty if it is not stored.
 std::string folder_of_sweep(Item const& document);
 
 /// Reads all of [sweep] into the result.

@@ -1,4 +1,4 @@
-// What the tables of a scenario say, but those whose room has its own.
+// The tables of a scenario, except those defined in their own modules.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/once.hpp>
 #include <boltzmann/diagnoses/bond_harmonics.hpp>

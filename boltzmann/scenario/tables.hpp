@@ -1,4 +1,4 @@
-// Tables: the tables of a scenario with their keys, for `bzm show`, the guide and whoever writes scenarios by program.
+// Tables: the tables of a scenario with their keys, for `bzm show`, the guide and programs that write scenarios.
 #pragma once
 
 #include <boltzmann/boundaries/box.hpp>
@@ -18,7 +18,7 @@
 
 namespace boltzmann {
 
-/// [run]; its step and what ends it are read by code. A new key is a member, a row of the table, and its use where the
+/// [run]; its step and its end are read by code. To add a key, add a member, a row of the table, and its use where the
 /// run is built.
 struct RunOptions {
   std::int64_t steps = 0;
@@ -37,7 +37,7 @@ struct UnitsOptions {
   std::optional<double> sigma, epsilon, mass, length, time, density, charge, temperature;
 };
 OptionTable const& units_options();
-/// Those that a base has, besides its name.
+/// The keys of a base, besides its name.
 OptionTable units_options(std::string const& base);
 
 /// [box]; corners, boundaries, walls and regions are read by code.
@@ -58,7 +58,7 @@ struct WallOptions {
   Box::End end = Box::End::low;
   bool open = false;
   std::optional<std::array<double, 3>> velocity;
-  Wall wall;  ///< in which it is not yet
+  Wall wall;  ///< without its region
 };
 OptionTable const& wall_options();
 
@@ -69,7 +69,7 @@ struct RegionOptions {
 };
 OptionTable const& region_options();
 
-/// [[ensembles]]; the class, how it is loaded, bonds and the fields are read by code.
+/// [[ensembles]]; the class, the loader, bonds and the fields are read by code.
 struct EnsembleOptions {
   std::string name;
   std::optional<Method> integrator;
@@ -95,16 +95,16 @@ struct ClassFieldOptions {
 };
 OptionTable const& class_field_options();
 
-/// [[ensembles.set]]; who is meant and the fields are read by code.
+/// [[ensembles.set]]; the selection and the fields are read by code.
 struct SetOptions {
   bool freeze = false;
 };
 OptionTable const& set_options();
 
-/// [equilibrate]: a heat bath for a while.
+/// [equilibrate]: a heat bath for a limited time.
 OptionTable const& equilibration_options();
 
-/// [[events]]; what is set or added and who is meant are read by code.
+/// [[events]]; set values, added particles and selections are read by code.
 struct EventOptions {
   double at = 0;
   std::optional<double> every;
@@ -116,14 +116,14 @@ struct EventOptions {
 };
 OptionTable const& event_options();
 
-/// [[sweep.pictures]]; what is to the right and upwards is read by code.
+/// [[sweep.pictures]]; the axes are read by code.
 struct SweepPictureOptions {
   std::string drawing = "points", fit, file;
   bool logarithmic = false;
 };
 OptionTable const& sweep_picture_options();
 
-/// [output]: steps between two.
+/// [output]: intervals in steps.
 struct OutputOptions {
   std::int64_t diagnoses = 0, trajectory = 0, checkpoint = 0, mesh = 0;
 };
@@ -131,7 +131,7 @@ OptionTable const& output_options();
 
 OptionTable const& box_options();
 
-/// [[influences]]: what is neither the law, nor on whom, nor a formula; beside these keys they have parameters.
+/// [[influences]]: keys other than the law, ensembles and formulas; parameters of the law are further keys.
 struct InfluenceOptions {
   std::optional<double> cutoff, switch_from;
   std::int64_t every = 1;
@@ -142,12 +142,12 @@ struct InfluenceOptions {
 };
 OptionTable const& influence_options();
 
-/// [[rigid_bonds]]; whose they are, and which particles, is read by code.
+/// [[rigid_bonds]]; the ensemble and the particles are read by code.
 struct RigidBondOptions {
   double length = 0, tolerance = 1e-10;
 };
 OptionTable const& rigid_bond_options();
-/// Of [[dissipation]] between pairs, beside the keys of its kind.
+/// For [[dissipation]] between pairs, besides the keys of its kind.
 OptionTable const& dissipation_pair_options();
 
 struct ScenarioTable {
@@ -155,11 +155,10 @@ struct ScenarioTable {
   std::string heading;  ///< as a scenario writes it: "[[smooth.rezone]]"
   std::string doc;
   OptionTable const* options;
-  void* plain;  ///< an object as it is without keys; null: none of the keys is a plain member
+  void* plain;  ///< an object with default values; null: none of the keys is a plain member
 };
-/// Those that have a table of options, in the order of the guide; those of several kinds (dissipation, pictures, views,
-/// diagnoses) have one for each kind and are not here. Which fields a class has for [[ensembles.set]] is in
-/// particle_classes().
+/// The tables with options, in the order of the guide. Those of several kinds (dissipation, pictures, views, diagnoses)
+/// have one per kind and are not included. The fields of classes for [[ensembles.set]] are in particle_classes().
 std::vector<ScenarioTable> const& scenario_tables();
 
 }  // namespace boltzmann

@@ -1,4 +1,4 @@
-// Which texts are formulas, and their values.
+// Recognises formulas, and evaluates them.
 #include <boltzmann/core/quantity_text.hpp>
 #include <boltzmann/scenario/field_formulas.hpp>
 #include <boltzmann/scenario/reading.hpp>

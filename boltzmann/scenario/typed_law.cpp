@@ -1,4 +1,4 @@
-// Sampling a typed law where its neighbours are.
+// Samples a typed law around the distance of neighbours.
 #include <boltzmann/scenario/typed_law.hpp>
 
 #include <algorithm>
@@ -9,8 +9,8 @@ namespace {
 
 constexpr double neighbours_shown = 4;
 
-/// The distance of neighbours if the particles filled the space that they take evenly; in fewer dimensions if they lie in a plane
-/// or on a line.
+/// The distance of neighbours if the particles filled their volume uniformly; in fewer dimensions if they lie in a
+/// plane or on a line.
 double spacing_of(AnyEnsemble const& ensemble) {
   double volume = 1;
   int dimensions = 0;

@@ -1,4 +1,4 @@
-// Typed laws of a scenario as curves, for a page that shows what a formula says.
+// Typed laws of a scenario as curves, for the page.
 #pragma once
 
 #include <boltzmann/laws/formula_law.hpp>
@@ -8,7 +8,7 @@
 
 namespace boltzmann {
 
-/// A law of pairs that was typed, and on whom it acts.
+/// A law of pairs given as a formula, and its ensembles.
 struct TypedLaw {
   std::string path;  ///< of its text, "influences.0.energy"
   FormulaLaw law;

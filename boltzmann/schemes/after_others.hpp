@@ -1,4 +1,4 @@
-// AfterOthers: what a scheme is besides whose share follows from what all other schemes have added.
+// AfterOthers: an interface of schemes whose influences depend on those of all other schemes.
 #pragma once
 
 #include <boltzmann/schemes/scheme.hpp>
@@ -8,7 +8,7 @@
 
 namespace boltzmann {
 
-/// A simulation asks such a scheme last, and calculates the influences of a finished step before anybody looks at it.
+/// The simulation calls such a scheme last, and calculates the influences of a finished step before any observer runs.
 class AfterOthers {};
 
 inline bool comes_last(Scheme const* scheme) { return dynamic_cast<AfterOthers const*>(scheme) != nullptr; }

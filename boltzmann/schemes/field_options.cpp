@@ -1,4 +1,4 @@
-// What is said of the law, and of whom it acts on.
+// Keys for the law and for the ensembles on which it acts.
 #include <boltzmann/schemes/field_options.hpp>
 
 namespace boltzmann {

@@ -1,11 +1,11 @@
-// Field options: the keys that all schemes of a field have.
+// Field options: the keys common to all schemes of a field.
 #pragma once
 
 #include <boltzmann/core/options.hpp>
 
 namespace boltzmann {
 
-/// law, k, G, on: the reader of the scenario knows them.
+/// law, k, G, on: the reader of the scenario processes them.
 void add_field_keys(OptionTable& table);
 
 }  // namespace boltzmann

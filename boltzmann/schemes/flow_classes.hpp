@@ -1,4 +1,4 @@
-// Which of the shipped classes make flows and are carried by them: what messages say to whoever took another.
+// The shipped classes that make flows and those carried by flows; error messages suggest them.
 // (tests/scenario/flow_scenario_test.cpp compares the lists with the classes.)
 #pragma once
 

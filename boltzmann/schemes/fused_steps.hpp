@@ -1,25 +1,26 @@
-// Whole steps: what a scheme offers that can advance its particles by itself, faster than by influences that are stored
-// and an integrator that reads them.
+// Fused steps: an interface of schemes that advance their particles themselves. This is faster than storing influences
+// that an integrator then reads.
 #pragma once
 
 namespace boltzmann {
 
 class AnyEnsemble;
 
-/// An ensemble of a simulation, and whether the leap-frog moves it (else it stays put).
+/// An ensemble of a simulation, and whether leap-frog moves it (otherwise it is fixed).
 struct Mover {
   AnyEnsemble* ensemble;
   bool moves;
 };
 
-/// A run of leap-frog steps. Between store() calls the rows of ensembles are out of date.
+/// A sequence of leap-frog steps. Between store() calls the rows of ensembles are out of date.
 class FusedSteps {
  public:
   virtual ~FusedSteps() = default;
-  /// Advances from `time` by a step. PhysicsFailure, naming the particle, if one is not finite, too fast, or has left.
+  /// Advances by one step from `time`. Throws PhysicsFailure, naming the particle, if a particle is not finite, too
+  /// fast, or has left the box.
   virtual void step(double time) = 0;
-  /// Puts the state of now, the `time` at which the next step will begin (positions, and velocities at the same time),
-  /// into the rows, unless they have it.
+  /// Stores the state (positions, and velocities at the same time) in the rows, unless they are up to date. `time` is
+  /// the time at which the next step begins.
   virtual void store(double time) = 0;
 };
 

@@ -1,12 +1,12 @@
-// RestoredInfluences: what a scheme is besides that counts its calculations in its state.
+// RestoredInfluences: an interface of schemes that count calculations in their state.
 #pragma once
 
 namespace boltzmann {
 
-/// A checkpoint may hold influences, which a run that goes on then does not calculate again.
+/// A checkpoint may contain influences. A resumed run then does not calculate them again.
 class RestoredInfluences {
  public:
-  /// Called after Scheme::restore() if it does.
+  /// Called after Scheme::restore() in that case.
   virtual void influences_restored() = 0;
 
  protected:

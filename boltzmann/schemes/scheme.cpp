@@ -1,4 +1,4 @@
-// Loading particles into a scheme.
+// Adds particles to a scheme.
 #include <boltzmann/schemes/scheme.hpp>
 #include <boltzmann/schemes/vortices/vortex_source.hpp>
 

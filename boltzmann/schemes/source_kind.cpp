@@ -1,4 +1,4 @@
-// Who attracts whom.
+// Signs of interactions, and their check.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/schemes/source_kind.hpp>
 

@@ -1,5 +1,5 @@
-// What a scheme of fields (mesh, multipoles) must know of a particle class: its strength or vorticity, and whether it
-// moves as Newton says.
+// The properties of a particle class that schemes of fields (mesh, multipoles) need: its strength or vorticity, and
+// whether it obeys Newton's equations.
 #pragma once
 
 #include <boltzmann/particles/ensemble.hpp>
@@ -18,7 +18,7 @@ concept BeginsWithForce = requires(Influence const& influence) {
   requires std::is_same_v<std::decay_t<decltype(influence.force)>, Vector<D>>;
 };
 
-/// Classes that such a scheme can act on: particles with mass and velocity, whose influence is a force or begins with
+/// Classes on which such a scheme can act: particles with mass and velocity, whose influence is a force or begins with
 /// one.
 template <class P>
 concept ForcedParticle = (std::is_same_v<typename P::Influence, Vector<P::dimension>> ||
@@ -27,7 +27,7 @@ concept ForcedParticle = (std::is_same_v<typename P::Influence, Vector<P::dimens
   p.velocity;
 };
 
-/// Classes that a flow carries; those with vorticity make it.
+/// Classes that a flow advects; those with vorticity also create it.
 template <class P>
 concept CarriedParticle = std::derived_from<P, Tracer<P::dimension>>;
 
@@ -35,18 +35,19 @@ template <class P>
 concept FieldParticle = ForcedParticle<P> || CarriedParticle<P>;
 
 struct SourceKind {
-  /// strength() of particles begin ... end-1, whose rows are `stride` doubles apart; of classes that have none the mass,
-  /// which attracts.
+  /// The strength() of particles [begin, end), whose rows are `stride` doubles apart. For classes without one: the
+  /// mass, as in gravity.
   void (*strengths)(double const* rows, std::size_t stride, std::size_t begin, std::size_t end,
                     double* strengths) = nullptr;
-  bool own = false;               ///< the class has a strength()
-  double sign = 0;                ///< +1: equal strengths repel, -1: they attract, 0: the class does not say
-  bool carried = false;           ///< a flow carries it (Tracer): what it feels is, or begins with, a velocity
-  int vorticity = -1, core = -1;  ///< of vortices, where they stand in the row
+  bool own = false;               ///< true if the class has a strength()
+  double sign = 0;                ///< +1: equal strengths repel; -1: they attract; 0: the class does not define it
+  bool carried = false;           ///< a flow advects it (Tracer): its influence is, or begins with, a velocity
+  int vorticity = -1, core = -1;  ///< offsets in the row of a vortex
   bool newton = false;            ///< equations of motion are Newton's, and no other field evolves
-  int mass = 0, velocity = 0;     ///< where they stand in the row
+  int mass = 0, velocity = 0;     ///< offsets in the row
 
-  /// Error, beginning with the scheme's name, if the class and a law with this constant disagree on who attracts whom.
+  /// Throws Error, beginning with the scheme's name, if the class and a law with this constant have opposite signs of
+  /// attraction.
   void check(AnyEnsemble const& ensemble, double constant, char const* scheme) const;
 };
 

@@ -1,5 +1,4 @@
-// Adaptation: what changes particles between steps. The simulation then takes them as they are, and as many as they
-// are.
+// Adaptation: changes particles, or their number, between steps.
 #pragma once
 
 #include <boltzmann/core/unit_system.hpp>
@@ -14,14 +13,13 @@ namespace boltzmann {
 class Adaptation {
  public:
   virtual ~Adaptation() = default;
-  /// Changes rows of ensembles, or their number. Fields that schemes find (densities) are those of the step that has
-  /// just been done.
+  /// Changes rows of ensembles, or their number. Fields that schemes derive (densities) are those of the last step.
   virtual void change() = 0;
-  /// One line about what was done so far, for the end of a run; empty: nothing to say.
+  /// One line about all changes so far, for the end of a run; empty: none.
   virtual std::string report(UnitSystem const&) const { return ""; }
-  /// Circulation and impulse of a plane flow that have gone with the vortices which it took away, so far.
+  /// Circulation and impulse of a plane flow of all vortices removed so far.
   virtual FlowImpulse taken() const { return {}; }
-  /// What it remembers, for checkpoints. restore() takes it back; Error if it does not fit.
+  /// The state for checkpoints. restore() restores it; Error if it does not fit.
   virtual std::vector<double> state() const { return {}; }
   virtual void restore(std::span<double const>) {}
 };

@@ -1,4 +1,4 @@
-// One step, by whatever advances the particles, and the checks that turn a failing one into one line.
+// One step by any method, and the checks that turn a failing step into one line.
 #include <boltzmann/integrators/driven_fields.hpp>
 #include <boltzmann/simulation/simulation.hpp>
 #include <boltzmann/simulation/start_forces.hpp>
@@ -13,7 +13,7 @@
 namespace boltzmann {
 namespace {
 
-/// A field with a rate of its own that is not finite; null: there is none, or something else is not.
+/// The field with a rate of its own that is not finite; null: there is none, or another number is not finite.
 Field const* driven_field_not_finite(AnyEnsemble const& ensemble, std::size_t i) {
   Field const* driven = nullptr;
   for (auto const& field : ensemble.fields())
@@ -25,7 +25,7 @@ Field const* driven_field_not_finite(AnyEnsemble const& ensemble, std::size_t i)
   return driven;
 }
 
-/// And the rates of its fields.
+/// Influences, and rates of fields.
 Division::Carried influences_on(AnyEnsemble& ensemble) {
   Division::Carried all;
   if (ensemble.size() == 0) return all;
@@ -36,8 +36,8 @@ Division::Carried influences_on(AnyEnsemble& ensemble) {
   return all;
 }
 
-/// When a step ends: exactly when the next one begins. Influences that are calculated there hold for the next step, and a
-/// run that goes on from there calculates them again at the time of its first step.
+/// The end of a step is computed exactly like the beginning of the next. Influences that are calculated there are valid
+/// for the next step, and a resumed run recalculates them at the time of its first step.
 double end_of_step(double base_time, std::int64_t steps_before, double step_size, double dt) {
   return base_time + static_cast<double>(steps_before + ((dt > 0) == (step_size > 0) ? 1 : -1)) * step_size;
 }
@@ -49,7 +49,7 @@ void Simulation::move_walls(double time) {
     if (scheme->box().moves()) scheme->box().move_walls(time);
 }
 
-/// The influences on particles as they are at this step, unless they stand there.
+/// Calculates the influences on particles at this step, unless they are up to date.
 void Simulation::calculate(double time, std::int64_t step) {
   if (influences_.hold()) return;
   move_walls(time);
@@ -64,7 +64,7 @@ void Simulation::calculate(double time, std::int64_t step) {
   influences_.calculated();
 }
 
-/// Of several schemes, in their order. In a run that is divided particles change hands before that.
+/// Calls several schemes in their order. In a divided run particles migrate before.
 void Simulation::add_all_influences(double time, std::int64_t step) {
   if (is_divided())
     for (auto* scheme : with_lists_)
@@ -80,7 +80,7 @@ void Simulation::add_all_influences(double time, std::int64_t step) {
   }
 }
 
-/// As much as a scheme gives in so many steps.
+/// Adds the impulse of a slow scheme for this number of steps.
 void Simulation::add_impulse(Scheme& scheme, double time, std::int64_t times) {
   of_others_.clear();
   for (auto* ensemble : scheme.ensembles()) {
@@ -109,7 +109,7 @@ void Simulation::advance(double dt, std::vector<Dissipation*> const& dissipation
     if (division_) division_->moved();
   }
   if (!dissipations.empty() && velocity_forces_.any()) velocity_forces_.refresh(end);
-  // Whoever looks may need other lists: who gets particles by them gets what they go on with.
+  // Observers may trigger a list rebuild. Migrated particles carry their integrator state.
   if (is_divided())
     division_->carry([this](AnyEnsemble const& of) {
       auto const one = std::find(ensembles_.begin(), ensembles_.end(), &of);
@@ -128,7 +128,7 @@ void Simulation::advance(double dt, std::vector<Dissipation*> const& dissipation
 void Simulation::advance(double start, double dt) {
   StepContext const context{dt, static_cast<std::uint64_t>(step_), seed_};
   double passed = 0;
-  // Of a substep that is not the last one the end is elsewhere.
+  // A substep that is not the last one ends earlier.
   double const whole_end = end_of_step(base_time_, step_ - base_step_, step_size_, dt), own_end = start + dt;
   double const rounding = 4 * std::numeric_limits<double>::epsilon() * (std::abs(start) + std::abs(whole_end));
   auto const moment = [&](double part) {
@@ -153,7 +153,7 @@ void Simulation::advance(double start, double dt) {
       move_walls(moment(passed));
       keep_in_box(part);
     };
-    // Particles that leap-frog advances have their final velocities before others move on.
+    // Particles of leap-frog have their final velocities before others continue.
     for (auto& part : parts_)
       if (!in_second_kick_ || (is_leap_frog(part) && !velocity_forces_.kicks(*part.ensemble))) advance_part(part);
     if (std::exchange(in_second_kick_, false)) {
@@ -161,7 +161,7 @@ void Simulation::advance(double start, double dt) {
       for (auto& part : parts_)
         if (!is_leap_frog(part)) advance_part(part);
     }
-    // What integrators hold from here on goes with particles that change hands; before, it may be of other numbers.
+    // From the first stage on integrator state migrates with the particles; before, it may have an old size.
     if (is_divided() && stage == 0)
       division_->carry([this](AnyEnsemble const& ensemble) {
         Division::Carried all;
@@ -173,8 +173,8 @@ void Simulation::advance(double start, double dt) {
 
 namespace {
 
-/// While it lives, rows have the velocities of the half step instead of predicted ones. What the ends of the box do to
-/// the former happens to the latter, too.
+/// While it lives, rows have the velocities of the half step instead of predicted ones. The ends of the box change both
+/// alike.
 class HalfStepVelocities {
  public:
   HalfStepVelocities(AnyEnsemble& ensemble, double* half) : ensemble_(ensemble), half_(half) {
@@ -214,7 +214,7 @@ class HalfStepVelocities {
   std::vector<double> predicted_;
 };
 
-/// True if velocities may change where a particle leaves.
+/// True if velocities may change when a particle leaves.
 bool changes_velocities(Box const& box) {
   bool changes = box.sheared() || !box.regions().empty();
   for (int a = 0; a < box.dimension(); ++a)
@@ -224,7 +224,7 @@ bool changes_velocities(Box const& box) {
 
 }  // namespace
 
-/// Puts back what has left the box during a step.
+/// Brings particles that have left back into the box.
 void Simulation::keep_in_box(Part& part) {
   bool const changes = changes_velocities(part.home->box());
   HalfStepVelocities const half_step(*part.ensemble, changes ? part.integrator->half_step_velocities() : nullptr);
@@ -251,7 +251,7 @@ void Simulation::stretch_box(double dt) {
   StepContext const context{dt, static_cast<std::uint64_t>(step_), seed_, end};
   for (auto const& barostat : barostats_) {
     if ((step_ + 1) % barostat->every() != 0) continue;
-    if (is_divided()) gather_particles();  // all ranks stretch all
+    if (is_divided()) gather_particles();  // every rank stretches all particles
     work_ += barostat->act(stretched_system(), context);
     influences_.particles_changed();
   }
@@ -280,7 +280,7 @@ void Simulation::advance_by_gauss_radau(double dt) {
 }
 
 /// Block steps (J. Makino, P. Hut, M. Kaplan and H. Saygin, New Astron. 12, 124 (2006)): a substep is dt / 2^n and
-/// begins at a multiple of itself. It is the longest that is allowed both where it begins and where it ends.
+/// begins at a multiple of itself. It is the longest one allowed both at its beginning and at its end.
 void Simulation::advance_in_substeps(double dt) {
   constexpr std::uint64_t whole = std::uint64_t{1} << 40;
   double const start = time(), unit = dt / static_cast<double>(whole);
@@ -327,7 +327,7 @@ double Simulation::longest_substep_now(std::vector<Moved> const& moving) {
   return is_divided() ? division_->least(longest) : longest;
 }
 
-/// Rows and influences, for a substep that may be too long.
+/// Saves rows and influences, to repeat a substep that was too long.
 void Simulation::keep_rows() {
   before_substep_.clear();
   for (auto const* ensemble : ensembles_) {
@@ -351,14 +351,14 @@ void Simulation::restore_rows() {
   influences_.calculated();
 }
 
-/// Those of the last run, if they can go on from here.
+/// Reuses those of the last run, if they can continue from here.
 FusedSteps* Simulation::whole_steps(double dt, std::optional<Dependence> const& now) {
   bool const can_go_on = whole_.steps && whole_.dt == dt && now && now->schemes && whole_.are_for == *now;
   if (!can_go_on) {
     whole_ = {};
     whole_ = {fused_steps(dt), dt, {}};
   }
-  whole_.are_for.schemes.reset();  // until they have been stored again
+  whole_.are_for.schemes.reset();  // until they are stored again
   return whole_.steps.get();
 }
 
@@ -400,7 +400,7 @@ void Simulation::check_move(Part const& part, LargestMove const& move) const {
                     move.not_finite, name, why.empty() ? "" : ": ", why));
   }
   double const moved = std::sqrt(move.square), allowed = std::sqrt(part.longest_move2);
-  Dimension const unit = part.ensemble->fields().front().dimension;  // of what moves: a length, an angle
+  Dimension const unit = part.ensemble->fields().front().dimension;  // of the coordinate: a length, an angle
   auto const length = [&](double number) { return units().text(number, unit); };
   throw PhysicsFailure(fmt::format("particle {} of '{}' moved {} in one step, further than the length {} of its law{}",
                                    move.particle, name, length(moved), length(allowed), advice()));
@@ -410,11 +410,11 @@ std::string Simulation::advice_on_substeps() const {
   bool const sound =
       std::any_of(schemes_.begin(), schemes_.end(), [](Scheme const* s) { return std::isfinite(s->sound_step()); });
   if (!sound || substeps_) return "";
-  if (!dissipations_.empty()) return "; take a shorter step";  // whose random numbers are of whole steps
+  if (!dissipations_.empty()) return "; take a shorter step";  // random numbers belong to whole steps
   return "; let steps be divided where they must: substeps = { courant = 0.4 } in [run] (divide_steps() in C++)";
 }
 
-/// The cure of a step that has brought a particle too far, as far as it is known.
+/// The cure for a step that has moved a particle too far, if it is known.
 std::string Simulation::advice() const {
   auto const told = [&](double number) { return units().text(number, dimensions::time, 3); };
   double const of_speeds = collisions_followed * collision_step_, safe = std::min(of_speeds, force_step_);

@@ -1,4 +1,4 @@
-// One move of the box: what it is drawn from, and whether it is accepted.
+// One move of the box: its distribution, and its acceptance.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/exact_sum.hpp>
 #include <boltzmann/core/once.hpp>
@@ -20,8 +20,8 @@
 namespace boltzmann {
 namespace {
 
-constexpr double max_way_of_piston = 0.1;    // of the edges' logarithm, in half a move
-constexpr std::uint32_t first_number = 192;  // of barostats, among what random numbers of heat baths are for
+constexpr double max_way_of_piston = 0.1;    // of the logarithm of the edges, in half a move
+constexpr std::uint32_t first_number = 192;  // of barostats, among the numbers of random streams of heat baths
 
 OptionTable make_barostat_options() {
   using namespace option;
@@ -47,7 +47,7 @@ OptionTable make_barostat_options() {
   return all;
 }
 
-/// All rigid bonds that schemes know of.
+/// All rigid bonds of the schemes.
 std::vector<std::shared_ptr<RigidBonds const>> rigid_bonds(StretchedSystem const& system) {
   std::vector<std::shared_ptr<RigidBonds const>> all;
   for (auto* scheme : system.schemes)
@@ -56,7 +56,7 @@ std::vector<std::shared_ptr<RigidBonds const>> rigid_bonds(StretchedSystem const
   return all;
 }
 
-/// The bodies of an ensemble: its particles, or the groups that rigid bonds make of them.
+/// The bodies of an ensemble: its particles, or groups of them that rigid bonds join.
 class Bodies {
  public:
   Bodies(StretchedSystem const& system, AnyEnsemble& ensemble)
@@ -96,7 +96,7 @@ class Bodies {
   std::optional<RigidGroups> groups_;
 };
 
-/// The velocity that the system has as a whole, along axes where it keeps its momentum.
+/// The common velocity of the system, along axes with conserved momentum.
 std::array<double, 3> common_velocity(StretchedSystem const& system) {
   std::array<double, 3> common{};
   auto const total = momentum(system.ensembles);
@@ -105,7 +105,7 @@ std::array<double, 3> common_velocity(StretchedSystem const& system) {
   return common;
 }
 
-/// What forces inside of rigid groups, those of the bonds among them, have of the virial along these axes.
+/// The part of the virial along these axes of forces inside rigid groups, including those of the bonds.
 double virial_inside(StretchedSystem const& system, std::vector<int> const& axes) {
   double virial = 0;
   for (auto const& rigid : rigid_bonds(system)) {
@@ -265,7 +265,7 @@ double Barostat::push(StretchedSystem const& system, std::vector<int> const& axe
     piston_rate_ *= chain_.advance(0.5 * piston_mass_ * square(piston_rate_), 1, kT, options_.rate, 0.5 * duration);
   };
   bool const rigid = !rigid_bonds(system).empty();
-  double kept = 0, freedom = 0;  // of bodies, which go with the box
+  double kept = 0, freedom = 0;  // of bodies, which scale with the box
   for (int const a : axes) kept += system.momentum_is_kept[static_cast<std::size_t>(a)] ? 1 : 0;
   for (auto* ensemble : system.ensembles)
     Bodies(system, *ensemble).each([&](auto const&, auto const&, auto const&) { freedom += dimension; });
@@ -305,7 +305,7 @@ double Barostat::move(StretchedSystem const& system, std::vector<int> const& axe
                       StepContext const& context) {
   double const kT = boltzmann_constant_ * options_.temperature, mobility = options_.compressibility * options_.rate;
   double const duration = static_cast<double>(options_.every) * context.dt;
-  double const spread2 = 0.5 * kT * mobility * duration;  // of the root of the volume, over the move
+  double const spread2 = 0.5 * kT * mobility * duration;  // of the root of the volume, in this move
   auto const mean = [&](StretchMeasures const& at) {
     double const root = std::sqrt(at.volume);
     return root + 0.5 * mobility * root * (at.pressure - options_.pressure + 0.5 * kT / at.volume) * duration;
@@ -317,7 +317,7 @@ double Barostat::move(StretchedSystem const& system, std::vector<int> const& axe
                drawn = centre + std::sqrt(spread2) * stream.normal(), chance = stream.uniform();
   if (!(drawn > 0)) return 0;
   double const ratio = drawn * drawn / before.volume, factor = std::pow(ratio, 1 / static_cast<double>(axes.size()));
-  bool const rigid = !rigid_bonds(system).empty();  // whose forces need all others
+  bool const rigid = !rigid_bonds(system).empty();  // their forces depend on all others
   std::vector<std::vector<double>> rows, influences;
   for (auto const* ensemble : system.ensembles) {
     rows.emplace_back(ensemble->row(0), ensemble->row(0) + ensemble->size() * ensemble->stride());
@@ -380,7 +380,7 @@ void stretch(StretchedSystem const& system, std::array<double, 3> const& factors
       }
     });
   }
-  for (auto* scheme : system.schemes) {  // and not before: bodies are put together by nearest images
+  for (auto* scheme : system.schemes) {  // only now: bodies are assembled by nearest images
     auto edges = scheme->box().edges();
     for (int a = 0; a < first.dimension(); ++a)
       if (factors[a] != 1)

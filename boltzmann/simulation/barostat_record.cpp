@@ -1,4 +1,4 @@
-// Whether a barostat holds its pressure: what it has seen of it, and what a run says of that at its end.
+// The record of a barostat's pressure, and the warnings at the end of a run.
 #include <boltzmann/simulation/barostat.hpp>
 
 #include <fmt/format.h>
@@ -11,9 +11,9 @@ namespace {
 
 constexpr std::size_t moves_to_judge = 50;
 constexpr double least_accepted = 0.1;   // of all moves
-constexpr double times_to_judge = 20;    // relaxation times of the box
+constexpr double times_to_judge = 20;    // in relaxation times of the box
 constexpr double errors_to_warn = 5;     // standard errors of the mean
-constexpr double strain_to_warn = 0.05;  // of the volume, that the difference of pressures makes
+constexpr double strain_to_warn = 0.05;  // the strain of the volume that corresponds to the pressure difference
 
 struct Mean {
   double value = 0, error = 0;

@@ -1,4 +1,4 @@
-// What is looked at before the first step, so that a wrong simulation is one line.
+// Checks before the first step, so that an invalid simulation ends with one line.
 #include <boltzmann/diagnoses/measures.hpp>
 #include <boltzmann/dissipation/rigid_motion.hpp>
 #include <boltzmann/integrators/driven_fields.hpp>
@@ -19,7 +19,7 @@ namespace boltzmann {
 
 void Simulation::check() { check(false); }
 
-/// With particles that have been `added` while it runs.
+/// `added`: particles have been added during the run.
 void Simulation::check(bool added) {
   if (checked_) return;
   make_ready();
@@ -28,7 +28,7 @@ void Simulation::check(bool added) {
   if (!begun_) checked_rows_ = checksum(false);
 }
 
-/// All that does not depend on the size of forces.
+/// All preparations that do not depend on the size of forces.
 void Simulation::make_ready() {
   small_system_ = {};
   whole_ = {};
@@ -75,7 +75,7 @@ void Simulation::make_ready() {
   if (!barostats_.empty()) check_barostats();
 }
 
-/// By steps of the run.
+/// By the steps of the run.
 std::vector<Moved> Simulation::moved() const {
   std::vector<Moved> all;
   for (auto const* ensemble : ensembles_)
@@ -86,8 +86,8 @@ std::vector<Moved> Simulation::moved() const {
   return all;
 }
 
-/// Forces that are finite, and not too large for the first step of a run, or with particles that have been added; what a
-/// later failure may be told of.
+/// Checks that forces are finite, and not too large for the first step of a run, or after particles have been added.
+/// Stores what a later error message needs.
 void Simulation::check_start(bool added) {
   check_influences();
   collision_step_ = std::numeric_limits<double>::infinity();
@@ -105,12 +105,12 @@ void Simulation::check_start(bool added) {
   }
 }
 
-/// The integrator of an ensemble, with its stages and with what it takes over from the schemes.
+/// Prepares the integrator of an ensemble: its stages, and the work that it does for the schemes.
 Simulation::Part const& Simulation::ready_part(AnyEnsemble& ensemble) {
   Part* part = part_of(ensemble);
   if (!part) part = &parts_.emplace_back(Part{&ensemble, usual_integrator(ensemble), 0, 0, {}, nullptr});
   part->integrator->threads(schemes_.front()->threads());
-  // Beside other forces that depend on the velocity a magnetic field is one of them.
+  // If other forces depend on the velocity, a magnetic field is applied as a force, too.
   bool takes = part->integrator->takes_rotations();
   for (auto* scheme : schemes_)
     if (auto const* laws = scheme->velocity_influences()) takes = takes && !laws->push(ensemble);
@@ -132,7 +132,7 @@ Simulation::Part const& Simulation::ready_part(AnyEnsemble& ensemble) {
   return *part;
 }
 
-/// Forces on particles that leap-frog advances.
+/// Forces on particles of leap-frog.
 void Simulation::find_velocity_forces() {
   std::vector<VelocityForces::Mover> movers;
   for (auto* ensemble : ensembles_) {
@@ -144,7 +144,7 @@ void Simulation::find_velocity_forces() {
   check_velocity_forces();
 }
 
-/// The velocity at the end of a step is found together for all that act on each other.
+/// The velocities at the end of a step are solved together for all ensembles that interact.
 void Simulation::check_velocity_forces() const {
   auto const moves = [this](AnyEnsemble const& ensemble) { return method(ensemble) != Method::deactivate; };
   for (auto* scheme : schemes_) {
@@ -164,7 +164,7 @@ void Simulation::check_velocity_forces() const {
   }
 }
 
-/// What its integrator leaves at rest, and what rigid bonds take.
+/// Sets which particles its integrator leaves at rest, and the degrees of freedom that rigid bonds remove.
 void Simulation::set_mobility(Part const& part) {
   Mobility mobility;
   mobility.all_rest = part.integrator->method() == Method::deactivate;
@@ -178,7 +178,7 @@ void Simulation::set_mobility(Part const& part) {
   part.ensemble->mobility = std::move(mobility);
 }
 
-/// Those that advance all ensembles together don't mix with others.
+/// Methods that advance all ensembles together can't be combined with others.
 void Simulation::check_methods() {
   std::vector<GaussRadau::Part> together;
   Part const* other = nullptr;
@@ -230,7 +230,7 @@ void Simulation::check_substeps() const {
     throw Error("substeps: no scheme of the simulation has a Courant step; give distance or energy");
 }
 
-/// Impulses belong to steps that all have in common, and to forces of positions alone.
+/// Impulses require a common step of all ensembles, and forces that depend only on positions.
 void Simulation::check_slow_schemes() {
   if (slow_.size() == schemes_.size())
     throw Error("every: all influences are calculated every so many steps; take a longer step instead");
@@ -253,7 +253,7 @@ void Simulation::check_slow_schemes() {
 }
 
 void Simulation::check_influences() const {
-  // A law of several particles is not finite on others, too, than those that are the reason.
+  // A law of several particles also gives other particles than the cause forces that are not finite.
   constexpr int most_asked = 30;
   int asked = 0;
   std::string first;
@@ -308,7 +308,7 @@ std::array<bool, 3> Simulation::momentum_is_kept() const {
   std::array<bool, 3>& kept = momentum_is_kept_.emplace();
   if (!changes_.empty()) return kept;
   for (auto const* ensemble : ensembles_)
-    if (!ensemble->mobility.all_move()) return kept;  // it takes up momentum
+    if (!ensemble->mobility.all_move()) return kept;  // particles at rest absorb momentum
   if (!measure().reciprocal) return kept;
   if (!std::all_of(dissipations_.begin(), dissipations_.end(), [](auto const* one) { return one->keeps_momentum(); }))
     return kept;
@@ -318,7 +318,7 @@ std::array<bool, 3> Simulation::momentum_is_kept() const {
   return kept;
 }
 
-/// Tells heat baths what is around them, twice: whether they keep momentum themselves depends on it.
+/// Connects heat baths with the rest of the system, twice: the second pass depends on the momentum that they conserve.
 void Simulation::settle_dissipations() {
   std::vector<Dissipation*> all = dissipations_;
   for (auto const& equilibration : equilibrations_) all.push_back(equilibration.dissipation.get());
@@ -360,7 +360,7 @@ void Simulation::check_barostats() {
 
 FixedPoint Simulation::choose_grid() const {
   double extent = 0, mass = std::numeric_limits<double>::infinity();
-  bool open = false;  // particles may fly off: leave them room for 512 boxes, and 4 otherwise
+  bool open = false;  // open: particles may fly off; allow them 512 boxes, otherwise 4
   for (auto const* scheme : schemes_)
     for (int a = 0; a < scheme->box().dimension(); ++a) {
       Box const& box = scheme->box();

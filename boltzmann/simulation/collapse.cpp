@@ -1,4 +1,4 @@
-// Free fall of a gas, from its virial at the start.
+// Free fall of a gas, by its virial at the start.
 #include <boltzmann/simulation/collapse.hpp>
 #include <boltzmann/simulation/simulation.hpp>
 
@@ -15,7 +15,7 @@ namespace {
 /// Sums over smooth particles, about their centre of mass.
 struct Virial {
   double forces = 0;    ///< of r.F
-  double support = 0;   ///< of D m P / rho + m v^2, against which forces pull inward
+  double support = 0;   ///< of D m P / rho + m v^2, which balances an inward pull
   double inertia = 0;   ///< of m r^2
   std::string example;  ///< an ensemble of them
 };
@@ -57,10 +57,11 @@ Virial virial_of(Simulation const& simulation) {
 
 }  // namespace
 
-/// Pressure adds to r.F what it supports, so the pull is the rest. A gas that pressure and motion support by a small part x
-/// of the pull falls freely, from radius R in (pi/2) sqrt(R/2g) with R/g = sum m r^2 / -sum r.F. What it gains becomes
-/// heat, so it ends in equilibrium at half its radius (virial theorem, energy kept). There the pull is twice that of the
-/// start, the square of the speed of sound 2/x times, and lengths are half as long.
+/// Pressure contributes its support to r.F, so the pull is the rest. Let a gas be supported by pressure and motion to a
+/// small part x of the pull. It falls freely from radius R in (pi/2) sqrt(R/2g) with R/g = sum m r^2 / -sum r.F. The
+/// gained energy becomes heat, so it ends in equilibrium at half its radius (virial theorem, conserved energy).
+/// Compared with the start, the pull is then twice as large, the square of the speed of sound is larger by 2/x, and
+/// lengths are half as long.
 std::string warn_of_collapse(Simulation const& simulation, double duration) {
   constexpr double cold = 0.5;
   double sound = __builtin_inf();

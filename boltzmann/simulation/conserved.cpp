@@ -1,4 +1,4 @@
-// Totals at both ends of a run, and the table that compares them.
+// Totals at the start and the end of a run, and the table that compares them.
 #include <boltzmann/core/exact_sum.hpp>
 #include <boltzmann/diagnoses/measures.hpp>
 #include <boltzmann/simulation/conserved.hpp>
@@ -41,7 +41,7 @@ void add_scales(AnyEnsemble const& ensemble, Conserved& total, Extent& extent) {
   total.angular_momentum_scale += angular_momenta.value();
 }
 
-/// Below 100 eps (length) / (step) a velocity moves nothing.
+/// Velocities below 100 eps (length) / (step) move nothing.
 void set_rounding(Extent const& extent, double step, Conserved& total) {
   if (!(std::abs(step) > 0) || !std::isfinite(extent.furthest)) return;
   double const velocity = 100 * std::numeric_limits<double>::epsilon() * extent.furthest / std::abs(step);
@@ -132,7 +132,7 @@ Conserved conserved(Simulation const& simulation) {
   for (auto const* dissipation : simulation.dissipations())
     total.isolated = total.isolated && dissipation->keeps_momentum();
   for (auto const* ensemble : ensembles) {
-    total.isolated = total.isolated && ensemble->mobility.all_move();  // what rests takes up momentum
+    total.isolated = total.isolated && ensemble->mobility.all_move();  // particles at rest absorb momentum
     if (!carries_momentum(*ensemble)) {
       massive = false;
       total.no_energy =
@@ -192,7 +192,7 @@ std::vector<std::string> conserved_table(Conserved const& start, Conserved const
   lines.push_back(fmt::format("  {:<34} {:>16} {:>16}   {:>9}", "conserved?", "at the start", "at the end", "drift"));
   auto const part = [](double change, double scale) { return scale > 0 ? change / scale : change; };
   if (start.energy && end.energy) {
-    // A shock's piston, or a heat bath, may do more than there was.
+    // A shock's piston, or a heat bath, may give more energy than there was.
     double const given = std::abs(end.work - start.work) + std::abs(end.heat - start.heat);
     double const all = std::max(start.energy_scale, end.energy_scale);
     bool const at_rest = all <= end.energy_rounding, near_zero = std::abs(*start.energy) < 1e-3 * all;

@@ -1,4 +1,4 @@
-// What a run conserves: energy, momentum and angular momentum of a state, where they are defined.
+// Conserved quantities of a run: energy, momentum and angular momentum of a state, where they are defined.
 #pragma once
 
 #include <boltzmann/core/unit_system.hpp>
@@ -13,41 +13,41 @@ namespace boltzmann {
 
 /// Totals over all ensembles whose class has a mass and a velocity.
 struct Conserved {
-  std::optional<double> energy;  ///< kinetic + potential + external + internal, less what has come from outside: work
-                                 ///< and heat; none if a law gives no energy or a class no mass
-  std::string no_energy;         ///< why there is none
-  double work = 0;               ///< that moving walls, and particles that were added, have done since the start
-  double heat = 0;               ///< that heat baths have given since the start of the run
-  std::optional<std::array<double, 3>> momentum;          ///< none where a class has no mass
+  std::optional<double> energy;  ///< kinetic + potential + external + internal, minus work and heat from outside the
+                                 ///< system; none if a law gives no energy or a class no mass
+  std::string no_energy;         ///< the reason why there is none
+  double work = 0;               ///< done by moving walls, and added particles, since the start
+  double heat = 0;               ///< given by heat baths since the start of the run
+  std::optional<std::array<double, 3>> momentum;          ///< none if a class has no mass
   std::optional<std::array<double, 3>> angular_momentum;  ///< about the origin; none on periodic axes
   double energy_scale = 0;                                ///< kinetic energy + |potential| + |external|
   double momentum_scale = 0;                              ///< sum of |m v|
   double angular_momentum_scale = 0;                      ///< sum of |m r x v|
-  /// What rounding of positions makes of these in a run: that of 100 eps (length) / (step) in every velocity. Where the
-  /// scales are smaller, nothing moves, and a relative drift means nothing.
+  /// The effect of rounding of positions on these in a run: an error of 100 eps (length) / (step) in every velocity. If
+  /// the scales are smaller, nothing moves, and a relative drift is meaningless.
   double energy_rounding = 0, momentum_rounding = 0, angular_momentum_rounding = 0;
   int dimension = 3;
-  bool driven = false;   ///< something may change the energy uncounted: friction, noise, adaptations, ...
-  bool isolated = true;  ///< no walls, no heat bath, nothing from outside or without reaction: momentum is conserved
+  bool driven = false;   ///< the energy may change without being counted: by friction, noise, adaptations, ...
+  bool isolated = true;  ///< no walls, no heat bath, no external or one-sided forces: momentum is conserved
 };
 
-/// Of the present state. Calculates the energies of all schemes once.
+/// The totals of the current state. Calculates the energies of all schemes once.
 Conserved conserved(Simulation const& simulation);
 
-/// PhysicsFailure, naming a particle where it is known, unless these energies are finite: those of measure(), or those
-/// that conserved() has found.
+/// PhysicsFailure, naming a particle if possible, unless these energies are finite: those of measure(), or those of
+/// conserved().
 void need_finite(Simulation const& simulation, EnergyAndVirial const& measures);
 void need_finite(Simulation const& simulation, Conserved const& total);
 
-/// A line of warning if the energy should be conserved and has changed by more than a tenth of what there was, or is, of
-/// kinetic, potential and internal energies; one if momentum should be and has changed by more than a hundredth of the
-/// sum of |m v|. None for changes that are rounding.
+/// A line of warning if the energy should be conserved and has changed by more than a tenth of the initial or final
+/// kinetic, potential and internal energies. Another one if momentum should be conserved and has changed by more than a
+/// hundredth of the sum of |m v|. None for changes within rounding.
 std::vector<std::string> drift_warnings(Conserved const& start, Conserved const& end, UnitSystem const& units);
 
-/// The lines of the table at the end of a run: each quantity at both ends and its drift. Energy ("energy less
-/// work and heat" where there was some): relative to its own start (to its scale if it starts near zero, to
-/// what was given if that is more); momenta: relative to their scales, since totals are often zero. Where a scale is
-/// itself rounding, the drift is a part of it.
+/// The lines of the table at the end of a run: each quantity at start and end, and its drift. The drift of the energy
+/// ("energy less work and heat" if there was some) is relative to its own start; if it starts near zero, to its scale;
+/// if more energy was given, to that. The drifts of momenta are relative to their scales, since totals are often zero.
+/// If a scale itself is rounding, the drift is relative to that.
 std::vector<std::string> conserved_table(Conserved const& start, Conserved const& end, UnitSystem const& units);
 
 }  // namespace boltzmann

@@ -1,5 +1,5 @@
-// FIRE 2.0 with a bound on each particle's way: far from a minimum it is a descent by steps of that length, near it the
-// method as published.
+// FIRE 2.0 with a limit on each particle's motion: far from a minimum it is a descent by steps of that length, near it
+// the published method.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/random.hpp>
 #include <boltzmann/loaders/ensemble_seed.hpp>
@@ -14,10 +14,10 @@
 namespace boltzmann {
 namespace {
 
-// Of the paper.
+// Parameters of the paper.
 constexpr double first_mixing = 0.25, mixing_falls = 0.99, step_grows = 1.1, step_falls = 0.5, most_growth = 10;
 constexpr int delay = 20;
-// Steps may become far shorter than the first one, which the run chose for other reasons.
+// Steps may become far shorter than the first one, which is the step of the run.
 constexpr double least_step = 1e-6;
 constexpr int most_separations = 50;
 
@@ -31,7 +31,7 @@ Three force_on(AnyEnsemble const& ensemble, std::size_t i) {
   return force;
 }
 
-/// By which a vector of this square is shortened, so that it is not longer than `most`.
+/// The factor that shortens a vector of this square to at most `most`.
 double shortening(double square, double most) { return square > most * most ? most / std::sqrt(square) : 1; }
 
 /// Calls f(i) for all that move.
@@ -74,7 +74,7 @@ void Descent::calculate() {
   }
 }
 
-/// Moves those whose force is not finite to somewhere near; false: there are none.
+/// Displaces particles whose force is not finite by a little; false if there are none.
 bool Descent::separate() {
   bool some = false;
   ++calls_;
@@ -98,7 +98,7 @@ bool Descent::separate() {
   return some;
 }
 
-/// Of a force on a particle that lies on a wall nothing is left that presses against it.
+/// Removes the component of forces that presses particles at a wall against it.
 void Descent::press_on_walls(Descending& part) {
   Box const& box = *part.box;
   for (int a = 0; a < box.dimension(); ++a) {
@@ -135,7 +135,7 @@ void Descent::step() {
   move();
 }
 
-/// It went too far: half a step back, and on from rest in shorter ones.
+/// Uphill: moves half a step back, and restarts from rest with shorter steps.
 void Descent::halve() {
   downhill_ = 0;
   step_ = std::max(step_falls * step_, shortest_);
@@ -185,7 +185,7 @@ void Descent::move() {
   }
 }
 
-/// Into the box: what a wall stops comes to rest there; the faces of regions are those of the run.
+/// Into the box: a particle that a wall stops comes to rest there; the faces of regions are as in the run.
 void Descent::bring_back(Descending& part) {
   Box const& box = *part.box;
   AnyEnsemble& ensemble = *part.ensemble;

@@ -1,4 +1,4 @@
-// Descent: the steps of FIRE, on the particles of several ensembles. Private to this room.
+// Descent: the steps of FIRE, for the particles of several ensembles. Private to this module.
 #pragma once
 
 #include <boltzmann/boundaries/box.hpp>
@@ -12,17 +12,17 @@
 
 namespace boltzmann {
 
-/// An ensemble that moves downhill.
+/// An ensemble that is minimised.
 struct Descending {
   AnyEnsemble* ensemble;
   Box const* box;
   double length;                        ///< over which its law changes
-  double distance;                      ///< no particle is moved further in a step
-  std::vector<bool> rests;              ///< of each particle, whether it stays; empty: none does
+  double distance;                      ///< the limit of a particle's motion in a step
+  std::vector<bool> rests;              ///< per particle, whether it rests; empty: none does
   std::vector<double> velocities = {};  ///< of the descent, D numbers a particle
 };
 
-/// The largest force there is, and on whom.
+/// The largest force, and its particle.
 struct LargestForce {
   double square = 0;
   std::size_t part = 0, particle = 0;
@@ -30,12 +30,13 @@ struct LargestForce {
 
 class Descent {
  public:
-  /// `influences` calculates them for particles as they stand. All particles have the same mass, whatever theirs are, so
-  /// that slow ones find their places as soon as quick ones.
+  /// `influences` calculates them for the current particles. All particles have the same mass in the descent, so that
+  /// heavy and light ones relax equally fast.
   Descent(std::vector<Descending>& parts, double mass, double step, std::uint64_t seed, int threads,
           std::function<void()> influences);
 
-  /// Forces at the places of now; particles whose force is not finite are moved apart first. Error if that does not help.
+  /// Calculates the forces at the current positions; particles whose force is not finite are first moved apart. Error
+  /// if that fails.
   void calculate();
   void step();
   LargestForce const& largest() const { return largest_; }

@@ -1,4 +1,5 @@
-// A run over the ranks of a team: each advances its share of the particles, and all have the bits of one.
+// A run over the ranks of a team: each rank advances its own particles, and the results are bit-for-bit those of one
+// rank.
 #include <boltzmann/core/team.hpp>
 #include <boltzmann/simulation/simulation.hpp>
 
@@ -9,7 +10,7 @@
 namespace boltzmann {
 namespace {
 
-/// A move as all ranks know it: the furthest, the first of equals, and the first particle that is not finite.
+/// The largest move over all ranks, the first of equals, and the first particle that is not finite.
 LargestMove over_all_ranks(Team& team, LargestMove const& mine) {
   std::string const bytes(reinterpret_cast<char const*>(&mine), sizeof mine);
   LargestMove all;
@@ -43,7 +44,8 @@ std::string Simulation::undivided() const {
   return particles < divided_from_ ? "few particles" : "";
 }
 
-/// In the order in which they say who owns what: first of all who has points of its own, then who is asked often.
+/// In the order in which they decide on owners: first schemes with points of their own, then those that are evaluated
+/// often.
 std::vector<Scheme*> Simulation::schemes_with_lists() const {
   std::vector<Scheme*> lists;
   std::copy_if(schemes_.begin(), schemes_.end(), std::back_inserter(lists),
@@ -53,7 +55,7 @@ std::vector<Scheme*> Simulation::schemes_with_lists() const {
   return lists;
 }
 
-/// What is held of particles besides their rows until the step is done.
+/// State of particles, besides their rows, that exists until the step is done.
 std::vector<Integrator::Carried> Simulation::held_inside_step(AnyEnsemble const& of) {
   Part* const part = part_of(of);
   if (!part) return {};
@@ -74,11 +76,11 @@ std::vector<Integrator::Carried> Simulation::held_inside_step(AnyEnsemble const&
   return all;
 }
 
-/// The run goes on by shares from here, if it can.
+/// Starts the domain decomposition, if the run allows it.
 void Simulation::divide() {
   Team& here = team();
   if (here.alone() || here.depth() != 1 || !undivided().empty()) return;
-  here.meet(Team::Occasion::exchanges);  // somebody's look may have failed
+  here.meet(Team::Occasion::exchanges);  // an observer of a rank may have failed
   auto const fits = [this](auto const* ensemble) { return division_->owners(*ensemble).size() == ensemble->size(); };
   if (!division_ || &division_->team() != &here || !std::all_of(ensembles_.begin(), ensembles_.end(), fits)) {
     division_ = std::make_unique<Division>(here);
@@ -87,7 +89,7 @@ void Simulation::divide() {
   division_->begin();
   for (auto& part : parts_) part.integrator->divide(division_.get());
   for (auto* dissipation : dissipations_) dissipation->divide(division_.get());
-  // Those with lists last, of which the first leads: it asks what the others read.
+  // Schemes with lists come last; the first of them leads, and collects the rows that others read.
   for (auto* scheme : schemes_)
     if (!scheme->shares_out()) scheme->divide(division_.get());
   with_lists_ = schemes_with_lists();
@@ -95,7 +97,7 @@ void Simulation::divide() {
   if (!with_lists_.empty() && every(*with_lists_.front()) > 1) division_->brings_nothing();
 }
 
-/// Everything is everybody's again, as far as it is known here.
+/// End the domain decomposition: every rank advances all particles again, as far as rows are current here.
 void Simulation::end_division() {
   if (!is_divided()) return;
   for (auto& part : parts_) part.integrator->divide(nullptr);
@@ -105,21 +107,21 @@ void Simulation::end_division() {
   division_->end();
 }
 
-/// Before all ranks alike change something that is everybody's; divide() follows.
+/// Before all ranks change common data alike; divide() follows.
 void Simulation::interrupt_division() {
   if (!is_divided()) return;
   gather_particles();
   end_division();
 }
 
-/// For whoever looks at them.
+/// Gathers particles for observers.
 void Simulation::gather_particles() const {
   division_->moved();  // some of their fields have been completed
   division_->make_whole();
-  if (!whole_.steps) division_->gather_influences();  // whole steps leave those that there were
+  if (!whole_.steps) division_->gather_influences();  // whole steps keep no influences
 }
 
-/// For all who look now.
+/// True if global sums suffice for all observers of this step.
 bool Simulation::sums_suffice() const {
   return std::all_of(observations_.begin(), observations_.end(),
                      [&](Observation const& one) {

@@ -1,4 +1,4 @@
-// Where dye is released, and how much of it there is.
+// The places of releases, and the number of tracers.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/simulation/dye.hpp>
 

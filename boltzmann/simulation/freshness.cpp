@@ -1,4 +1,4 @@
-// Told by the bits of the rows.
+// Changes are detected by the bits of the rows.
 #include <boltzmann/simulation/freshness.hpp>
 
 #include <boltzmann/core/checksum_kernels.hpp>

@@ -1,4 +1,4 @@
-// KeepsNumbers: what an adaptation is besides that changes particles but not how many they are, nor which is which.
+// KeepsNumbers: marks an adaptation that changes neither the number nor the order of particles.
 #pragma once
 
 #include <boltzmann/simulation/adaptation.hpp>

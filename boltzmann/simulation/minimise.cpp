@@ -1,4 +1,4 @@
-// Who is moved, what is kept meanwhile, and when it is enough.
+// Selects the particles to move, saves the rest of the state, and ends the descent.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/exact_sum.hpp>
 #include <boltzmann/simulation/descent.hpp>
@@ -15,9 +15,9 @@ namespace boltzmann {
 namespace {
 
 constexpr double most_of_length = 0.1, tolerated_part = 1e-6;
-constexpr std::int64_t looks_every = 10;  // steps between two looks at the energy
+constexpr std::int64_t looks_every = 10;  // steps between two checks of the energy
 
-/// Velocities are zero while this lives, walls stand still, and both are then as they were.
+/// While it lives, velocities are zero and walls are at rest; its destructor restores both.
 class AtRest {
  public:
   AtRest(std::vector<AnyEnsemble*> const& ensembles, std::vector<Scheme*> const& schemes) : schemes_(schemes) {
@@ -55,7 +55,7 @@ class AtRest {
   std::vector<Kept> moving_;
 };
 
-/// What the descent looks for, and whether it is there.
+/// The criteria of convergence.
 class Goal {
  public:
   Goal(Simulation const& simulation, MinimiseOptions const& options, double force)
@@ -77,7 +77,7 @@ class Goal {
     return std::isfinite(energy) ? std::optional(energy) : std::nullopt;
   }
 
-  /// After so many steps.
+  /// True if they are met after this number of steps.
   bool reached(std::int64_t steps, double largest) {
     if (largest == 0 || (looks_at_force_ && largest <= force_)) return true;
     if (!change_ || steps % looks_every != 0) return false;
@@ -152,7 +152,7 @@ void Simulation::minimise_first(MinimiseOptions const& options) {
   checked_ = false;
 }
 
-/// Those that forces move, and their mean mass.
+/// The ensembles that forces move, and their mean mass.
 std::pair<std::vector<Descending>, double> Simulation::descending(MinimiseOptions const& options) const {
   std::vector<Descending> parts;
   ExactSum mass;

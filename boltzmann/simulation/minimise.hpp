@@ -1,4 +1,4 @@
-// Minimise: particles are moved downhill until no force is left that matters, before a run or on their own.
+// Minimise: moves particles downhill in energy until forces are negligible, before a run or separately.
 //
 //   auto const found = minimise(simulation, {.force = 1e-8});
 //   std::puts(text(found, units).c_str());
@@ -16,42 +16,45 @@ namespace boltzmann {
 
 class Simulation;
 
-/// When the descent ends, and how large its steps are. Of several ends the first that is reached.
+/// When the descent ends, and the size of its steps. It ends at the first criterion that is met.
 struct MinimiseOptions {
-  std::optional<double> force = {};     ///< no force is larger. Without `force` and `energy`: none moves its particle
-                                        ///< further than a millionth of its law's length in a step of the run
+  std::optional<double> force = {};     ///< limit of all forces. Without `force` and `energy`: no force moves its
+                                        ///< particle further than a millionth of its law's length in a step of the run
   std::optional<double> energy = {};    ///< ten steps change the energy by less than this, twice in succession
-  std::int64_t steps = 10000;           ///< at most so many
-  std::optional<double> step = {};      ///< the first step in time, which grows up to ten times; that of the run
-  std::optional<double> distance = {};  ///< no particle is moved further in a step; a tenth of its law's length (of the
-                                        ///< mean distance, where the law has none)
+  std::int64_t steps = 10000;           ///< at most
+  std::optional<double> step = {};      ///< the first step in time, which grows up to ten times; default: that of the
+                                        ///< run
+  std::optional<double> distance = {};  ///< limit of a particle's motion in a step; default: a tenth of its law's
+                                        ///< length (of the mean distance if the law has none)
 };
 OptionTable const& minimise_options();
 
 struct Minimised {
   std::optional<double> energy_before = {}, energy_after = {};  ///< potential and external; none if a law gives none
-  double force_before = 0, force_after = 0;  ///< the largest; of particles at a wall the part that does not press on it
-  std::string ensemble = {};                 ///< whose particle feels it
-  std::size_t particle = 0;                  ///< ... by number
-  std::int64_t steps = 0;                    ///< that were done
-  bool converged = false;                    ///< whether a tolerance was met
-  std::size_t separated = 0;                 ///< particles whose force was not finite (two at one place), moved apart
+  double force_before = 0, force_after = 0;  ///< the largest; at a wall without the component that presses on it
+  std::string ensemble = {};                 ///< of the particle with the largest force
+  std::size_t particle = 0;                  ///< its number
+  std::int64_t steps = 0;                    ///< steps done
+  bool converged = false;                    ///< a tolerance was met
+  std::size_t separated = 0;                 ///< particles whose force was not finite (two coincident ones), moved
+                                             ///< apart
 };
 
-/// Moves the particles of all ensembles that forces act on to a minimum of their energy, by FIRE (E. Bitzek,
-/// P. Koskinen, F. Gaehler, M. Moseler and P. Gumbsch, Phys. Rev. Lett. 97, 170201 (2006)) as J. Guenole and others have
-/// it (Comput. Mater. Sci. 175, 109584 (2020)), with a bound on the way of each particle, so that overlaps are pushed
-/// apart and nothing explodes. Deactivated ensembles and frozen particles stay; what a wall stops lies on it. Velocities
-/// and all other fields stay as they are, and count as zero for laws that depend on them; moving walls stand still. The
-/// same bits for any number of threads. The simulation is checked then (Simulation::check). Error where there is nothing
-/// that a force moves, or particles are smooth (their pressure does work on their heat, so that nothing is at its least),
-/// or a tolerance is on the energy and a law gives none, or a force that is not finite stays so.
+/// Moves the particles of all ensembles on which forces act to a minimum of their energy. The method is FIRE (E.
+/// Bitzek, P. Koskinen, F. Gaehler, M. Moseler and P. Gumbsch, Phys. Rev. Lett. 97, 170201 (2006)) in the form of J.
+/// Guenole and others (Comput. Mater. Sci. 175, 109584 (2020)). A limit on the motion of each particle pushes
+/// overlapping particles apart gently. Deactivated ensembles and frozen particles rest; a particle that a wall stops
+/// stays at the wall. Velocities and all other fields are kept, and count as zero for laws that depend on them; moving
+/// walls are at rest. The same bits for any number of threads. The simulation is checked afterwards
+/// (Simulation::check). Error if no force moves anything, if particles are smooth (their pressure does work on their
+/// heat, so that there is no minimum), if a tolerance is on the energy and a law gives none, or if a force stays
+/// infinite or NaN.
 Minimised minimise(Simulation& simulation, MinimiseOptions const& options = {});
 
-/// In a line: "energy -12.1 eV to -13.4 eV, largest force 2e-9 eV/angstrom, 312 steps, converged".
+/// One line: "energy -12.1 eV to -13.4 eV, largest force 2e-9 eV/angstrom, 312 steps, converged".
 std::string text(Minimised const& minimised, UnitSystem const& units);
 
-/// Error for numbers that can't be.
+/// Error for invalid numbers.
 void check(MinimiseOptions const& options);
 
 }  // namespace boltzmann

@@ -11,10 +11,10 @@ namespace boltzmann {
 
 struct Moved {
   AnyEnsemble const* ensemble;
-  std::span<std::uint32_t const> resting;  ///< the numbers of those that stay
+  std::span<std::uint32_t const> resting;  ///< the numbers of resting particles
   double length;                           ///< over which its law changes; infinite: unknown
 
-  /// Calls f(i) for each particle that moves, in a run that is divided for those of this rank's share.
+  /// Calls f(i) for each moving particle; in a divided run only for those of this rank.
   template <class F>
   void each(F const& f) const {
     std::vector<bool> rests(resting.empty() ? 0 : ensemble->size());

@@ -1,4 +1,4 @@
-// Sheets become vortices.
+// Converts sheets to vortices.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/number.hpp>
 #include <boltzmann/simulation/no_slip.hpp>

@@ -1,4 +1,4 @@
-// Those beyond a plane, and what went with them.
+// Finds particles beyond a plane, and records what they carry.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/number.hpp>
 #include <boltzmann/simulation/outflow.hpp>
@@ -47,7 +47,7 @@ Outflow::Outflow(AnyEnsemble& ensemble, Box const& box, OutflowPlane const& plan
     throw Error(fmt::format("outflow: '{}' needs a particle as an example of those that enter it", to.into->name()));
 }
 
-/// Counts what goes with one.
+/// Adds the contribution of one particle.
 void Outflow::leave(double const* row) {
   Field const* const vorticity = ensemble_->find_field("vorticity");
   if (!vorticity) return;
@@ -68,7 +68,7 @@ void Outflow::leave(double const* row) {
   }
 }
 
-/// Makes one a particle of the other ensemble.
+/// Adds a particle to the destination ensemble.
 void Outflow::enter(double const* row) {
   AnyEnsemble& into = *to_.into;
   std::size_t const at = into.size();

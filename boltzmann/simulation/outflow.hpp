@@ -1,5 +1,4 @@
-// Outflow: vortices and tracers that the flow has carried far enough leave the simulation, or become part of a coarser
-// wake.
+// Outflow: vortices and tracers that are far downstream leave the simulation, or join a coarser wake.
 //
 //   simulation.adapt(1, Outflow(wake, box, {.from = {{10, 0, 0}}, .direction = {{1, 0, 0}}}, {.bodies = &bodies}));
 #pragma once
@@ -20,32 +19,34 @@
 
 namespace boltzmann {
 
-/// A plane; behind it nobody stays.
+/// Particles beyond this plane are removed.
 struct OutflowPlane {
-  std::optional<std::array<double, 3>> from;       ///< a point of it
-  std::optional<std::array<double, 3>> direction;  ///< across it, downstream, of any length
+  std::optional<std::array<double, 3>> from;       ///< a point on it
+  std::optional<std::array<double, 3>> direction;  ///< normal to it, downstream, of any length
 
-  /// Error if there is no such plane in a space of so many axes.
+  /// Error if this is no plane in a space of this dimension.
   void check(int dimension) const;
   bool beyond(double const* place, int dimension) const;
 };
 
-/// Where what leaves goes to, and what else it concerns; both may be null, and outlive the outflow.
+/// The destination of particles that leave, and bodies that they affect. Both may be null, and must outlive the
+/// outflow.
 struct OutflowInto {
-  AnyEnsemble* into = nullptr;          ///< an ensemble of vortices, of any class, that takes up those who leave
-  PanelScheme const* bodies = nullptr;  ///< whose sheets lose a part with those who leave for good
+  AnyEnsemble* into = nullptr;          ///< an ensemble of vortices, of any class, to which particles that leave are
+                                        ///< added
+  PanelScheme const* bodies = nullptr;  ///< their sheets lose a part with the vortices that are removed
 };
 
-/// Removes what is beyond the plane; those who stay keep their order. What has left carries nobody any more: in 2D a
-/// vortex Gamma at a distance d has moved the fluid at Gamma / (2 pi d). Circulation and impulse that went are told. Forces
-/// on bodies count them, and what the bodies' sheets lose with them (Adaptation::taken): they are those of the flow
-/// without the ones that left, and have no jumps. With an ensemble to go into nothing is lost: each becomes a particle of
-/// that one, with the fields that both classes have; others are those of its first particle. Remeshed on a wider lattice
-/// it is a far wake that costs little.
+/// Removes particles beyond the plane; the others keep their order. A removed vortex no longer moves the fluid: in 2D a
+/// vortex Gamma at a distance d has moved it at Gamma / (2 pi d). Removed circulation and impulse are recorded. Forces
+/// on bodies include them, and the changes of the bodies' sheets (Adaptation::taken): they are the forces of the flow
+/// without the removed vortices, and have no jumps. With a destination ensemble nothing is lost: each vortex becomes a
+/// particle of that one, with the fields that both classes have; other fields are those of its first particle. Remeshed
+/// on a wider lattice it is a cheap far wake.
 class Outflow final : public Adaptation {
  public:
-  /// The ensemble must outlive it. Error if no flow carries the ensemble, there is no such plane, or an ensemble to go into
-  /// is not one of vortices, the same, or empty.
+  /// The ensemble must outlive it. Error if no flow carries the ensemble, if there is no such plane, or if the
+  /// destination has no vortices, is the same ensemble, or is empty.
   Outflow(AnyEnsemble& ensemble, Box const& box, OutflowPlane const& plane, OutflowInto const& to = {});
 
   void change() override;
@@ -54,7 +55,7 @@ class Outflow final : public Adaptation {
   std::vector<double> state() const override;
   void restore(std::span<double const> state) override;
 
-  /// How many have left; their vorticity (in 2D the third number) and their impulse over the density.
+  /// The number of removed particles; their vorticity (in 2D the third number) and their impulse over the density.
   std::size_t left() const { return left_; }
   Vector<3> const& vorticity() const { return vorticity_; }
   Vector<3> const& impulse() const { return impulse_; }
@@ -69,14 +70,14 @@ class Outflow final : public Adaptation {
   std::size_t left_ = 0;
   Vector<3> vorticity_{}, impulse_{};
   Vector<2> sheet_impulse_{};
-  std::vector<double> normal_velocity_;  // on panels, of those who leave
+  std::vector<double> normal_velocity_;  // on panels, by removed vortices
 };
 
-/// [[outflow]] of a scenario; on whom is read by code.
+/// [[outflow]] of a scenario; the ensemble is read by other code.
 struct OutflowOptions {
   std::int64_t every = 1;
   OutflowPlane how;
-  AnyEnsemble* into = nullptr;  ///< read by code
+  AnyEnsemble* into = nullptr;  ///< read by other code
 };
 OptionTable const& outflow_options();
 

@@ -1,4 +1,4 @@
-// Mirrored at the outline.
+// Mirrors particles at the outline.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/simulation/outside_bodies.hpp>
 

@@ -1,4 +1,5 @@
-// OutsideBodies: puts back what has got into a body during a step, as a step of finite size may do beside a wall.
+// OutsideBodies: moves particles out of bodies that they have entered during a step, as a finite step may cause near a
+// wall.
 #pragma once
 
 #include <boltzmann/schemes/panels/panel_scheme.hpp>
@@ -8,9 +9,9 @@
 
 namespace boltzmann {
 
-/// Each particle that the bodies' sheet carries and that is inside of one goes to the other side of the nearest point of the
-/// outline, as far out as it was in. Vortices keep their vorticity, but stand for no volume there: remeshing puts such on
-/// nodes that a wall cuts off, where no fluid is.
+/// Each particle that the bodies' sheet carries and that is inside a body is mirrored at the nearest point of the
+/// outline. Vortices keep their vorticity, but represent no volume there: remeshing moves such vorticity to nodes that
+/// a wall cuts off, where there is no fluid.
 class OutsideBodies final : public Adaptation, public KeepsNumbers {
  public:
   /// The scheme must outlive it.

@@ -1,4 +1,4 @@
-// Influences and derived fields, brought up to date with rows that may have been written.
+// Brings influences and derived fields up to date with rows that may have been written.
 #include <boltzmann/simulation/simulation.hpp>
 
 #include <algorithm>
@@ -40,7 +40,7 @@ void Simulation::refresh_in_run() {
   if (changed) take_particles();
   influences_.outdated();
   calculate(time());
-  if (whole_.steps) influences_.outdated();  // whole steps do not keep it
+  if (whole_.steps) influences_.outdated();  // whole steps do not keep influences
   update_derived_fields();
   if (rows_before_change_) rows_before_change_ = checksum();
 }

@@ -1,4 +1,4 @@
-// One measurement for all that ask.
+// One measurement for all diagnoses.
 #include <boltzmann/simulation/refusals.hpp>
 #include <boltzmann/simulation/simulation.hpp>
 

@@ -1,4 +1,4 @@
-// Which diagnoses a simulation can't serve, told before its run.
+// Diagnoses that a simulation can't serve, reported before its run.
 #pragma once
 
 #include <boltzmann/diagnoses/diagnosis.hpp>
@@ -12,9 +12,9 @@ namespace boltzmann {
 
 class Simulation;
 
-/// Why each diagnosis can't have the energies or the virial that it needs (refusal()), or the particles that it follows by
-/// their numbers; empty where it can. Energies are measured once, and only if one of them needs them. Errors are those of
-/// Simulation::check().
+/// For each diagnosis the reason why the simulation lacks the energies or the virial that it needs (refusal()), or
+/// particles that it follows by number; empty if it has them. Energies are measured once, and only if a diagnosis needs
+/// them. Errors are those of Simulation::check().
 std::vector<std::string> refusals(Simulation& simulation, std::span<std::unique_ptr<Diagnosis> const> diagnoses);
 
 }  // namespace boltzmann

@@ -1,4 +1,4 @@
-// Vortices onto a lattice: dense arrays over the nodes that they can reach, filled in the order of the particles.
+// Deposits vortices on a lattice: dense arrays over all reachable nodes, filled in the order of the particles.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/simulation/remesh.hpp>
 
@@ -15,17 +15,17 @@ namespace {
 
 constexpr std::uint32_t no_particle = std::numeric_limits<std::uint32_t>::max();
 constexpr double max_nodes = 4e7;
-constexpr double fit = 1e-6;  // how exactly a lattice repeats along a periodic axis
+constexpr double fit = 1e-6;  // tolerance of the periodicity of a lattice along a periodic axis
 
 using Node = std::array<std::int64_t, 3>;
 
-/// The node at or below a place, and how far above it that is, in spacings.
+/// The node at or below a point, and the distance above it in spacings.
 struct Below {
   Node node{};
   std::array<double, 3> fraction{};
 };
 
-/// Where nodes are: endless, or of one period.
+/// The positions of nodes along an axis: unlimited, or one period.
 class Nodes {
  public:
   Nodes(Box const& box, double spacing) : box_(box) {
@@ -62,7 +62,7 @@ class Nodes {
     }
     return below;
   }
-  /// Whether the limits of the box let a node be there.
+  /// True if the limits of the box allow a node there.
   bool inside(std::array<double, 3> const& x) const {
     for (int a = 0; a < box_.dimension(); ++a) {
       if (box_.boundary(a) == Boundary::open || periodic(a)) continue;
@@ -83,14 +83,14 @@ class Nodes {
   std::array<std::int64_t, 3> period_{};
 };
 
-/// Nodes shared by one particle: `count` along each axis from `first` on, with their weights.
+/// The nodes of one particle: `count` along each axis from `first` on, with their weights.
 struct Shares {
   Node first{};
   int count = 1;
   std::array<std::array<double, 6>, 3> weight{{{1}, {1}, {1}}};
 };
 
-/// Quadratic polynomials through three nodes, of which the first is `from` spacings from the place.
+/// Quadratic interpolation on three nodes; the first is `from` spacings from the point.
 std::array<double, 6> quadratic_weights(double from) {
   double const x = -from - 1;  // from the middle one
   return {0.5 * x * (x - 1), 1 - x * x, 0.5 * x * (x + 1)};
@@ -120,7 +120,7 @@ class Mesh {
   }
 
  private:
-  /// The block of nodes that particles can reach, with its margin.
+  /// Finds the block of nodes that particles can reach, with its margin.
   void find_range() {
     std::array<double, 6> none{};
     reach_ = remesh_weights(how_.kernel, 0, none);
@@ -169,7 +169,7 @@ class Mesh {
     }
   }
 
-  /// The number of a node in the arrays.
+  /// The index of a node in the arrays.
   std::size_t at(Node node) const {
     std::size_t number = 0;
     for (int a = dimension_ - 1; a >= 0; --a) {
@@ -197,7 +197,7 @@ class Mesh {
     return state_[number] == 1;
   }
 
-  /// Calls f(node's number, weight) for every node of these, x fastest.
+  /// Calls f(index, weight) for each of these nodes, x fastest.
   template <class F>
   void each(Shares const& shares, F const& f) const {
     int const n = shares.count, ny = dimension_ > 1 ? n : 1, nz = dimension_ > 2 ? n : 1;
@@ -226,7 +226,7 @@ class Mesh {
     }
     return shares;
   }
-  /// The nearest block of nodes that are allowed; false if there is none nearby.
+  /// Finds the nearest block of allowed nodes; false if there is none nearby.
   bool find_block(Below const& below, Shares& shares) {
     struct Block {
       Node shift;
@@ -256,7 +256,7 @@ class Mesh {
     return false;
   }
 
-  /// Gives everything to the nodes; those particles that could not are returned.
+  /// Deposits all vorticity on nodes; returns the particles for which there is no place.
   std::vector<std::uint32_t> deposit() {
     std::vector<std::uint32_t> left;
     for (std::size_t i = 0; i < ensemble_.size(); ++i) {
@@ -291,7 +291,7 @@ class Mesh {
     return std::sqrt(square);
   }
 
-  /// Says in chosen_ which nodes there will be.
+  /// Selects in chosen_ the nodes that become particles.
   Remeshed choose() {
     std::size_t const size = giver_.size();
     double greatest = 0, total = 0;
@@ -334,8 +334,8 @@ class Mesh {
     return done;
   }
 
-  /// One layer more along an axis around what is chosen. Nodes that nobody gave anything get their other fields from
-  /// the neighbour.
+  /// Adds one layer along an axis around the chosen nodes. Nodes without contributions get their other fields from the
+  /// neighbour.
   void widen(int axis) {
     std::vector<char> const before = chosen_;
     std::size_t stride = 1;
@@ -394,9 +394,9 @@ class Mesh {
   Node low_{};
   std::array<std::int64_t, 3> counts_{1, 1, 1};
   std::vector<double> strength_;
-  std::vector<float> most_;           // the largest part that one particle has given,
+  std::vector<float> most_;           // the largest contribution of one particle,
   std::vector<std::uint32_t> giver_;  // and that particle
-  std::vector<char> state_;           // 1: allowed, 2: not, 0: nobody has asked
+  std::vector<char> state_;           // 1: allowed, 2: not, 0: not yet determined
   std::vector<char> chosen_;
 };
 

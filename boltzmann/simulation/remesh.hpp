@@ -1,4 +1,4 @@
-// Remeshing: vortices that the flow has carried apart or together are replaced by others on the nodes of a lattice.
+// Remeshing: replaces vortices that the flow has spread or clustered by others on the nodes of a lattice.
 #pragma once
 
 #include <boltzmann/boundaries/box.hpp>
@@ -13,53 +13,55 @@
 
 namespace boltzmann {
 
-/// How the vorticity of a particle is shared among the nodes around it: by products of one function along each axis.
+/// The kernel that distributes the vorticity of a particle to the nodes around it: a product of one function along each
+/// axis.
 enum class RemeshKernel {
-  m4,  ///< M4' of J. J. Monaghan, J. Comput. Phys. 60, 253 (1985): 4 nodes an axis, keeps the moments 0 to 2
+  m4,  ///< M4' of J. J. Monaghan, J. Comput. Phys. 60, 253 (1985): 4 nodes an axis, conserves the moments 0 to 2
   m6,  ///< M6* of M. Bergdorf and P. Koumoutsakos, Multiscale Model. Simul. 5, 980 (2006): 6 nodes, moments 0 to 4
 };
 Words<RemeshKernel> const& remesh_kernel_words();
 
-/// The weights of the 2 n nodes around a place that is `fraction` of a spacing above a node, from node 1 - n (counted
-/// from that one) to node n; n is returned.
+/// The weights of the 2 n nodes around a point that is `fraction` of a spacing above a node, from node 1 - n (counted
+/// from that one) to node n; returns n.
 int remesh_weights(RemeshKernel kernel, double fraction, std::array<double, 6>& weights);
 
-/// How vortices are remeshed.
+/// Options of remeshing.
 struct Remeshing {
-  /// Of the nodes, which stand at low + (n + 1/2) spacing of the box, as those of fill_load do.
+  /// Distance of nodes, which are at low + (n + 1/2) spacing of the box, like those of fill_load.
   double spacing = 0;
   RemeshKernel kernel = RemeshKernel::m4;
   double core = 0;         ///< of the new vortices; 0: one and a half of the spacing
-  double threshold = 0;    ///< nodes with less than this part of the greatest vorticity are weak, and left out,
-  double max_loss = 1e-4;  ///< unless these make more than this part of the sum of all magnitudes
-  int margin = 0;          ///< but not those so many nodes around others: vorticity can spread to them
-  /// Where nodes may stand, beside the limits of the box; empty: everywhere.
+  double threshold = 0;    ///< nodes with less than this part of the greatest vorticity are weak, and are removed,
+  double max_loss = 1e-4;  ///< unless they have more than this part of the sum of all magnitudes
+  int margin = 0;          ///< weak nodes within this number of nodes of others are kept: vorticity can spread to them
+  /// True where nodes are allowed, inside the limits of the box; empty: everywhere.
   std::function<bool(std::array<double, 3> const&)> allowed = {};
 
-  /// Error if it can't be done.
+  /// Error if an option is invalid.
   void check() const;
 };
 
 struct Remeshed {
-  std::size_t removed = 0;           ///< nodes that were left out although they had vorticity
-  Vector<3> vorticity_lost{};        ///< the sum of that; in 2D the third number
-  double magnitudes_lost = 0;        ///< and of its magnitudes
-  Vector<3> impulse_lost{};          ///< sum Gamma (y, -x) of that; 1/2 sum x x alpha
-  std::size_t left_as_they_are = 0;  ///< vortices in corners with no place for nodes
+  std::size_t removed = 0;           ///< removed nodes that had vorticity
+  Vector<3> vorticity_lost{};        ///< its sum; in 2D the third number
+  double magnitudes_lost = 0;        ///< the sum of its magnitudes
+  Vector<3> impulse_lost{};          ///< its sum Gamma (y, -x); 1/2 sum x x alpha
+  std::size_t left_as_they_are = 0;  ///< vortices in corners that have no place for nodes
 };
 
-/// Replaces the vortices of an ensemble by others on nodes, in the order x fastest, then y, then z. The sum of vorticity
-/// and its first and second moments (circulation, linear and angular impulse) stay to rounding, but for what is left
-/// out. Positions, `vorticity`, `core` and, where the class has it, `volume` (that of a cell) are new; other fields are
-/// those of the particle that gave the node most. Along periodic axes nodes repeat. Beyond reflecting ends and walls, in
-/// regions that keep out, and where it is not allowed, there are no nodes: vortices near these are shared among the
-/// nearest block of 3 nodes an axis by quadratic polynomials, which keep the same moments. Influences become zero. The
-/// result depends on the particles alone. Error as by check(), and if there would be too many nodes.
+/// Replaces the vortices of an ensemble by others on nodes, in the order x fastest, then y, then z. The sum of
+/// vorticity and its first and second moments (circulation, linear and angular impulse) are conserved to rounding,
+/// except for removed nodes. Positions, `vorticity`, `core` and, if the class has it, `volume` (that of a cell) are
+/// new; other fields are those of the particle that contributed most to the node. Along periodic axes nodes repeat.
+/// There are no nodes beyond reflecting ends and walls, in regions that keep particles out, and where they are not
+/// allowed. Vortices near these are distributed to the nearest block of 3 nodes an axis by quadratic polynomials, which
+/// conserve the same moments. Influences become zero. The result depends on the particles only. Error as by check(),
+/// and if there would be too many nodes.
 Remeshed remesh(AnyEnsemble& ensemble, Box const& box, Remeshing const& remeshing);
-/// Error if the ensemble, whatever its state, can't be remeshed so in this box.
+/// Error if the ensemble, independent of its state, can't be remeshed like this in this box.
 void check(AnyEnsemble const& ensemble, Box const& box, Remeshing const& remeshing);
 
-/// [[remesh]] of a scenario; on whom is read by code.
+/// [[remesh]] of a scenario; the ensemble is read by other code.
 struct RemeshOptions {
   std::int64_t every = 1;
   Remeshing how;

@@ -1,4 +1,4 @@
-// What a remesher says and remembers.
+// The report and the state of a remesher.
 #include <boltzmann/simulation/remesher.hpp>
 
 #include <fmt/format.h>

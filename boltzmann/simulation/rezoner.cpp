@@ -1,4 +1,4 @@
-// What a rezoner says and remembers.
+// The report and the state of a rezoner.
 #include <boltzmann/simulation/rezoner.hpp>
 
 #include <fmt/format.h>

@@ -18,7 +18,7 @@ class Rezoner final : public Adaptation {
   std::vector<double> state() const override;
   void restore(std::span<double const> state) override;
 
-  /// Of all steps so far.
+  /// Totals of all steps so far.
   Rezoned const& done() const { return done_; }
 
  private:

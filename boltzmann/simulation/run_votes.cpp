@@ -1,4 +1,4 @@
-// When ranks vote, and where they stop.
+// Decides when ranks vote, and where they stop.
 #include <boltzmann/simulation/run_votes.hpp>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Run votes: how the ranks of a team do a run() together. Private to this room.
+// Run votes: the coordination of the ranks of a team in one run(). Private to this module.
 #pragma once
 
 #include <boltzmann/core/clock.hpp>
@@ -9,18 +9,18 @@
 
 namespace boltzmann {
 
-/// The votes of one run(). They are taken where a rank fails, where one is told to stop, after so many steps that a
-/// tenth of a second has passed, and at both ends. Ranks stop where the one that is ahead of all has come to; what all
-/// are told in the same step (a condition on the particles) stops them in that step, as it does one rank. Where a run is
-/// divided ranks speak with each other inside of steps, and who is told to stop can't vote when it likes: then they vote
-/// after steps in which somebody has looked at particles, or changed them, and might have said so, and what a clock or a
-/// signal says waits for the next vote.
+/// The votes of one run(). Ranks vote when one fails or is stopped, after the number of steps that corresponds to a
+/// tenth of a second, and at both ends. Ranks stop at the step that the most advanced one has reached. A stop that all
+/// ranks get in the same step (a condition on the particles) ends the run in that step, as on one rank. In a divided
+/// run ranks exchange data inside steps, so that a stopped rank can't vote at any time. Then they vote after steps in
+/// which observers or adaptations were called, which might have stopped the run. A stop by a clock or a signal waits
+/// for the next vote.
 class RunVotes {
  public:
   explicit RunVotes(std::uint64_t steps)
       : team_(team()), alone_(team_.alone() || team_.depth() != 1), steps_(static_cast<std::int64_t>(steps)) {}
 
-  /// Before the first step. `checksum` is of all that the steps begin with, and is not asked for on one rank.
+  /// Before the first step. `checksum` is that of all inputs of the steps; it is not called on one rank.
   template <class Checksum>
   void begin(Checksum const& checksum, bool stop) {
     if (alone_) return;
@@ -31,21 +31,21 @@ class RunVotes {
     stopped_ = stopping_;
   }
 
-  /// What has been done since the last time, the same on all ranks.
+  /// Progress since the last vote, the same on all ranks.
   struct Done {
     std::uint64_t steps = 0;
-    bool divided = false;  ///< by shares
-    bool looked = false;   ///< observers, adaptations or events have been called in the last one
+    bool divided = false;  ///< in a divided run
+    bool looked = false;   ///< observers, adaptations or events were called in the last step
   };
-  /// Whether another step is to be done.
+  /// True if another step is to be done.
   bool go_on(Done const& done, bool stop, bool pause) {
     if (alone_) return static_cast<std::int64_t>(done.steps) < steps_ && !stop && !pause;
     return go_on_together(done, stop, pause);
   }
-  /// Whether a rank has been told to stop for good.
+  /// True if a rank was stopped for good.
   bool stopped() const { return stopped_; }
 
-  /// Behind the last step, with a checksum of the particles.
+  /// After the last step, with a checksum of the particles.
   template <class Checksum>
   void end(Checksum const& checksum) {
     if (alone_) return;
@@ -60,18 +60,18 @@ class RunVotes {
 
   Team& team_;
   bool alone_, stopping_ = false, stopped_ = false;
-  std::int64_t steps_, goal_ = 0;  // where the next vote is
+  std::int64_t steps_, goal_ = 0;  // the step of the next vote
   std::int64_t interval_ = 1, voted_at_ = 0;
   Clock::time_point voted_;
 };
 
-/// Calls what runs; what it throws on one rank, all throw.
+/// Calls the function; an exception on one rank is thrown by all.
 template <class Run>
 void run_together(Run const& run) {
   Team& here = team();
   if (here.alone()) return run();
   Team::Inside const inside(here);
-  if (here.depth() > 1) return run();  // an observer's own run is told of by the run around it
+  if (here.depth() > 1) return run();  // the outer run reports failures of an observer's own run
   std::exception_ptr failure;
   try {
     return run();

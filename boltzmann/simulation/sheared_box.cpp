@@ -1,4 +1,4 @@
-// A sheared box: what can't act there, and the flow that a run begins with.
+// A sheared box: checks of what it does not support, and the initial flow of a run.
 #include <boltzmann/diagnoses/measures.hpp>
 #include <boltzmann/simulation/simulation.hpp>
 
@@ -53,7 +53,7 @@ void Simulation::check_shear() {
   for (auto const& equilibration : equilibrations_) equilibration.dissipation->act_in_flow(box);
 }
 
-/// A fluid that moves up the gradient as a whole would take the place where it rests along with it, out of the middle.
+/// A fluid with a common velocity along the gradient would carry the plane of zero flow out of the middle.
 void Simulation::establish_flow() {
   Box const& box = schemes_.front()->box();
   if (!box.sheared()) return;

@@ -1,4 +1,4 @@
-// What takes part in a simulation, its loop, and its state.
+// The parts of a simulation, its loop, and its state.
 #include <boltzmann/core/exact_sum.hpp>
 #include <boltzmann/core/team.hpp>
 #include <boltzmann/diagnoses/measures.hpp>
@@ -20,20 +20,20 @@
 namespace boltzmann {
 namespace {
 
-constexpr std::uint32_t first_equilibration = 128;  // its number as a dissipation
+constexpr std::uint32_t first_equilibration = 128;  // number of random streams of equilibrations
 
 void set_moving(AnyEnsemble& ensemble, std::array<double, 3> const& drift) {
   kick({{&ensemble, all_particles(ensemble)}}, drift);
 }
 
-/// Takes off the velocity of the centre of mass of the particles that move, and returns it.
+/// Subtracts the velocity of the centre of mass from the moving particles, and returns it.
 std::array<double, 3> come_to_rest(AnyEnsemble& ensemble) {
   auto const drift = common_velocity({{&ensemble, all_particles(ensemble)}});
   set_moving(ensemble, {-drift[0], -drift[1], -drift[2]});
   return drift;
 }
 
-/// Whole steps hold particles of their own: in a divided run those of this rank, and only in that division.
+/// Whole steps have particles of their own: in a divided run those of this rank, valid only in that division.
 Dependence of_whole_steps(Dependence now, Division const* division) {
   if (division && now.schemes) *now.schemes += division->id() * 0x9E3779B97F4A7C15U;
   return now;
@@ -93,11 +93,11 @@ bool Simulation::numbers_change() const {
          std::any_of(events_.begin(), events_.end(), [](Event const& event) { return event.adds; });
 }
 
-/// Those of one step in the order in which they were told.
+/// Events of one step are called in the order of their registration.
 void Simulation::schedule(double time, std::function<void()> event, bool lasting, bool adds) {
   if (!(time > 0) || !std::isfinite(time))
     throw Error(fmt::format("an event happens at a positive time since the start of the run, not at {}", time));
-  // A time of so many steps, but for rounding, is that many.
+  // A time that is a whole number of steps, up to rounding, is that number.
   double const step = std::ceil(time / std::abs(step_size_) * (1 - 1e-12));
   if (step > 9e15) throw Error(fmt::format("an event at {} would happen after {:.3g} steps", told_time(time), step));
   auto const at = static_cast<std::int64_t>(step);
@@ -252,7 +252,7 @@ void Simulation::take_lengths() {
   }
 }
 
-/// Puts all into the box; those that can't be there are refused.
+/// Wraps all particles into the box; refuses those at invalid positions.
 void Simulation::accept_particles() {
   for (auto* scheme : schemes_)
     for (auto* ensemble : scheme->ensembles()) {
@@ -262,7 +262,7 @@ void Simulation::accept_particles() {
     }
 }
 
-/// Particles have been changed between steps.
+/// After particles have been changed between steps.
 void Simulation::take_particles() {
   accept_particles();
   influences_.particles_changed();
@@ -308,7 +308,7 @@ void Simulation::happen_now() {
   try {
     for (; k < events_.size() && events_[k].step == step_; ++k) {
       interrupt_division();
-      auto const happen = events_[k].happen;  // it may bring others
+      auto const happen = events_[k].happen;  // it may add others
       auto const before = sizes();
       if (events_[k].adds) {
         added = true;
@@ -320,7 +320,7 @@ void Simulation::happen_now() {
           throw Error("an event that adds particles is told by add_particles() (C++), and none takes them away");
       }
     }
-    checked_ = false;  // laws and methods may be others
+    checked_ = false;  // laws and methods may have changed
     check(added);
   } catch (Error const& error) {
     throw Error(fmt::format("step {}: {}", step_, error.what()));
@@ -332,12 +332,12 @@ void Simulation::happen_now() {
   divide();
 }
 
-/// Rigid bonds take back what else has changed of velocities along them.
+/// Rigid bonds remove changes of velocities along them.
 void Simulation::settle_velocities() {
   for (auto const& part : parts_) part.integrator->settle_velocities();
 }
 
-/// What it does to the energy, as far as that is known, is work.
+/// The change of energy, as far as it is known, counts as work.
 void Simulation::add_now(std::function<void()> const& add) {
   auto const before = sizes();
   auto const energy = conserved(*this).energy;
@@ -376,7 +376,7 @@ void Simulation::observe_now() const {
     sums.emplace(*division_);
   else if (is_divided())
     gather_particles();
-  std::size_t const count = observations_.size();  // others may come
+  std::size_t const count = observations_.size();  // others may be added
   for (std::size_t k = 0; k < count; ++k)
     if (auto const& one = observations_[k]; !one.forgotten && one.due(step_)) one.observer(*this);
 }
@@ -391,7 +391,7 @@ void Simulation::equilibrate_now() {
     std::vector<std::array<double, 3>> drifts;
     for (auto* ensemble : dissipation->ensembles()) drifts.push_back(come_to_rest(*ensemble));
     if (velocity_forces_.any()) influences_.outdated();
-    // A stop waits until the end: nothing could go on with half an equilibration.
+    // A stop waits until the end: an equilibration can't be resumed halfway.
     for (std::uint64_t n = 0; n < steps; ++n) {
       try {
         advance(step_size_, {dissipation.get()});
@@ -399,7 +399,7 @@ void Simulation::equilibrate_now() {
       } catch (PhysicsFailure const& failure) {
         throw PhysicsFailure(fmt::format("step {} of the equilibration: {}", n + 1, failure.what()));
       }
-      ++step_;  // noise of its own for each
+      ++step_;  // each step has its own noise
     }
     step_ = base_step_;
     for (std::size_t e = 0; auto* ensemble : dissipation->ensembles()) {
@@ -428,11 +428,11 @@ void Simulation::refuse_backwards() const {
   if (!events_.empty()) throw Error("a run with events can't go backwards");
 }
 
-/// What comes before the first step.
+/// Everything before the first step.
 void Simulation::begin() {
   if (begun_) return;
   if (minimisation_) minimise(*this, *std::exchange(minimisation_, std::nullopt));
-  equilibrate_now();  // also for no steps: what is stored of them is where another run goes on
+  equilibrate_now();  // also for no steps: a resumed run continues from the same state
   establish_flow();
   begun_ = true;
   if (observation_due()) {
@@ -475,7 +475,7 @@ void Simulation::run(std::uint64_t steps, int direction) {
     ~Together() {
       try {
         simulation->end_division();
-      } catch (PhysicsFailure const&) {  // of particles of another rank; whatever has ended the run is told
+      } catch (PhysicsFailure const&) {  // of particles of another rank; the original failure is reported
       }
     }
   } const together{this};
@@ -497,7 +497,7 @@ void Simulation::run(std::uint64_t steps, int direction) {
   votes.end([&] { return checksum(); });
 }
 
-/// A step, and all that is to happen behind it. Whether somebody has been called in a run that is divided, who may have
+/// One step, and everything that follows it. True if observers or others were called in a divided run, which may have
 /// taken any time.
 bool Simulation::take_step(int direction, FusedSteps* whole, bool last) {
   try {
@@ -520,7 +520,7 @@ bool Simulation::take_step(int direction, FusedSteps* whole, bool last) {
       whole->store(time());
       if (observers_read_influences_) refresh_in_run();
     } else if (observation_due()) {
-      calculate(time());  // unless they hold: what the next step would begin with all the same
+      calculate(time());  // unless they are valid: the next step would begin with them in any case
     }
     observe_now();
   }
@@ -529,7 +529,7 @@ bool Simulation::take_step(int direction, FusedSteps* whole, bool last) {
   return looked;
 }
 
-/// All that others may look at is up to date, and everybody's.
+/// Brings everything that observers may read up to date, on all ranks.
 void Simulation::complete_last_step(FusedSteps* whole, bool last) {
   if (whole) {
     whole->store(time());
@@ -549,7 +549,7 @@ void Simulation::complete_last_step(FusedSteps* whole, bool last) {
 
 namespace {
 
-/// Adds numbers of each particle that one of several schemes knows. `known` becomes false where a scheme knows none.
+/// Adds per-particle numbers of one of several schemes. `known` becomes false if a scheme has none.
 void add_up(std::vector<std::vector<double>> const& part, Scheme const& scheme,
             std::vector<AnyEnsemble*> const& ensembles, std::vector<std::vector<double>>& total, bool& known) {
   auto const& own = scheme.ensembles();
@@ -569,7 +569,7 @@ void add_up(std::vector<std::vector<double>> const& part, Scheme const& scheme,
 EnergyAndVirial Simulation::measure() const {
   auto total = EnergyAndVirial::known();
   total.reciprocal = true;
-  bool energies = true, virials = true;  // of each particle, from every scheme
+  bool energies = true, virials = true;  // per particle, from every scheme
   auto const all = supervised_by(schemes_);
   for (auto* scheme : schemes_) {
     EnergyAndVirial part = scheme->measure(time());
@@ -590,16 +590,16 @@ EnergyAndVirial Simulation::measure() const {
       add_up(part.virial_per_particle, *scheme, all, total.virial_per_particle, virials);
     }
   }
-  for (auto const& part : parts_)  // who stays where it is takes up what others lose
+  for (auto const& part : parts_)  // particles at rest absorb momentum
     total.reciprocal =
         total.reciprocal && part.integrator->method() != Method::deactivate && part.integrator->same_for_all();
   total.work = work_;
   bool const sheared = schemes_.front()->box().sheared();
-  total.driven = total.driven || sheared;  // by images that flow
+  total.driven = total.driven || sheared;  // by moving images
   for (auto* dissipation : dissipations_) {
     total.internal += dissipation->internal_energy();
     total.heat += dissipation->heat();
-    if (!sheared) continue;  // at rest friction moves no momentum in the mean
+    if (!sheared) continue;  // at rest, friction transfers no momentum on average
     auto const friction = dissipation->virial();
     for (std::size_t a = 0; a < 3; ++a)
       for (std::size_t b = 0; b < 3; ++b) total.virial[a][b] += friction[a][b];
@@ -636,7 +636,7 @@ std::vector<double> Simulation::state() const {
 
 namespace {
 
-/// Periodic ends are where they were, at these edges; walls are where the time says.
+/// Sets these edges along periodic axes; walls are at their position at this time.
 void stretch_to(std::span<double const> edges, Scheme& scheme) {
   Box& box = scheme.box();
   auto now = box.edges();
@@ -661,7 +661,7 @@ void Simulation::restore(std::int64_t step, double step_size, std::uint64_t seed
   seed_ = seed;
   minimisation_.reset();
   equilibrations_.clear();
-  begun_ = true;  // the start is behind it
+  begun_ = true;  // the start has been done
   std::size_t at = 6;
   auto const next = [&] {
     if (at >= state.size()) throw misfit();
@@ -670,7 +670,7 @@ void Simulation::restore(std::int64_t step, double step_size, std::uint64_t seed
     at += count;
     return state.subspan(at - count, count);
   };
-  if (!barostats_.empty()) {  // before particles are put into the box
+  if (!barostats_.empty()) {  // before particles are wrapped into the box
     if (state.size() < at + 6) throw misfit();
     for (auto* scheme : schemes_) stretch_to(state.subspan(at, 6), *scheme);
     at += 6;

@@ -1,4 +1,4 @@
-// Wide cores into narrower ones with the same moments, and back.
+// Splits wide cores into narrower ones with the same moments, and merges.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/vector.hpp>
 #include <boltzmann/simulation/split_cores.hpp>
@@ -18,7 +18,7 @@ namespace {
 
 constexpr double alike = 0.99;  // the least cosine of the angle between vortices that merge
 
-/// Where fields of vortices stand in a row.
+/// Offsets of fields of vortices in a row.
 struct Places {
   int dimension, vorticity, components, core, volume;
 
@@ -58,7 +58,7 @@ std::size_t split_wide(AnyEnsemble& ensemble, Places const& at, CoreSplitting co
     std::copy_n(ensemble.row(i), doubles, old.begin());
     double const core = old[static_cast<std::size_t>(at.core)],
                  away = core * std::sqrt(dimension * (1 - splitting.ratio * splitting.ratio));
-    // Crosses that are turned against each other leave no pattern.
+    // Successive crosses are rotated, so that they leave no pattern.
     double const turned = 2 * pi * std::fmod(0.6180339887498949 * static_cast<double>(i + 1), 1.0);
     for (int child = 0; child < children; ++child) {
       double* const row = ensemble.row(child == 0 ? i : next++);
@@ -81,7 +81,7 @@ std::size_t split_wide(AnyEnsemble& ensemble, Places const& at, CoreSplitting co
   return wide.size();
 }
 
-/// Particles by cells of a size, for the search of those that are near.
+/// Particles sorted into cells, to search near ones.
 class ByCell {
  public:
   ByCell(AnyEnsemble const& ensemble, int dimension, double size) : dimension_(dimension), size_(size) {

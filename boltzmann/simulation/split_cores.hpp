@@ -1,4 +1,4 @@
-// Splitting of vortices whose cores have grown wide, and merging of those that overlap more than they need.
+// Splitting of vortices whose cores have grown wide, and merging of those that overlap more than necessary.
 #pragma once
 
 #include <boltzmann/boundaries/box.hpp>
@@ -11,14 +11,14 @@
 
 namespace boltzmann {
 
-/// Which vortices are split, and into what (L. F. Rossi, SIAM J. Sci. Comput. 17, 370 (1996)).
+/// Criteria of splitting, and the resulting vortices (L. F. Rossi, SIAM J. Sci. Comput. 17, 370 (1996)).
 struct CoreSplitting {
-  double above = 0;         ///< cores that are wider are split,
-  double ratio = 0.8;       ///< into some that are so much narrower: 4 around the old place in 2D, 6 in 3D
-  double merge_within = 0;  ///< two of like direction that are nearer to each other than this part of the narrower core
-                            ///< become one, unless its core would be too wide; 0: nothing merges
+  double above = 0;         ///< wider cores are split,
+  double ratio = 0.8;       ///< into narrower ones by this factor: 4 around the old position in 2D, 6 in 3D
+  double merge_within = 0;  ///< two of similar direction that are nearer than this part of the narrower core merge,
+                            ///< unless the new core would be too wide; 0: no merging
 
-  /// Error if it can't be done.
+  /// Error if an option is invalid.
   void check() const;
 };
 
@@ -26,20 +26,21 @@ struct CoresSplit {
   std::size_t splits = 0, merges = 0;
 };
 
-/// Splits once, then merges. A split keeps the vorticity, its first moment, and its second, cores counted as Gaussians of
-/// standard deviation `core`: circulation, linear and angular impulse; so does a merger of vortices of one direction (in
-/// 2D of one sign; in 3D they are taken as one if they are within 8 degrees, and the second moment is kept of magnitudes).
-/// The first of the new ones stays in the row of the old one, others are appended in the order of their rows; of merged
-/// ones the first stays. A field `volume` is shared, and added; other fields are those of the first. The result depends on
-/// the particles alone; images along periodic axes do not merge. Error for wrong options and missing fields; PhysicsFailure for cores that are not finite.
+/// Splits once, then merges. A split conserves the vorticity and its first and second moments, with cores as Gaussians
+/// of standard deviation `core`: circulation, linear and angular impulse. So does a merger of vortices of one
+/// direction. In 2D that means one sign; in 3D they merge within 8 degrees, and the second moment of magnitudes is
+/// conserved. The first new vortex keeps the row of the old one, others are appended in the order of their rows; merged
+/// ones keep the first row. A field `volume` is divided, and added; other fields are those of the first. The result
+/// depends on the particles only; images along periodic axes do not merge. Error for invalid options and missing
+/// fields; PhysicsFailure for cores that are not finite.
 CoresSplit split_cores(AnyEnsemble& ensemble, CoreSplitting const& splitting);
 
-/// The same while a simulation runs.
+/// The same during a run.
 ///   simulation.adapt(5, CoreSplitter(vortices, scheme.box(), {.above = 0.1}));
 class CoreSplitter final : public Adaptation {
  public:
-  /// The ensemble must outlive it. Error as above, and if the box has limits within which a split might not find place:
-  /// its axes are open or periodic, and it has no regions.
+  /// The ensemble must outlive it. Error as above, and if a split might be outside the limits of the box: its axes must
+  /// be open or periodic, and it must have no regions.
   CoreSplitter(AnyEnsemble& ensemble, Box const& box, CoreSplitting const& splitting);
 
   void change() override;
@@ -47,7 +48,7 @@ class CoreSplitter final : public Adaptation {
   std::vector<double> state() const override;
   void restore(std::span<double const> state) override;
 
-  /// Of all times so far.
+  /// Totals so far.
   CoresSplit const& done() const { return done_; }
 
  private:
@@ -56,7 +57,7 @@ class CoreSplitter final : public Adaptation {
   CoresSplit done_;
 };
 
-/// [[split_cores]] of a scenario; on whom is read by code.
+/// [[split_cores]] of a scenario; the ensemble is read by other code.
 struct CoreSplittingOptions {
   std::int64_t every = 1;
   CoreSplitting how;

@@ -1,4 +1,4 @@
-// Who is thrown furthest, and by whom.
+// Finds the particle that is moved furthest, and its nearest neighbour.
 #include <boltzmann/simulation/start_forces.hpp>
 
 #include <fmt/format.h>
@@ -13,7 +13,7 @@ namespace boltzmann {
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
-constexpr double part_of_length = 0.1;  // that forces may move particles in a step which is advised
+constexpr double part_of_length = 0.1;  // the limit of the motion by forces in an advised step
 
 /// Particle `number` of an ensemble.
 struct Numbered {
@@ -23,7 +23,7 @@ struct Numbered {
   std::string name() const { return fmt::format("particle {} of '{}'", number, of->name()); }
 };
 
-/// The particle whose acceleration is largest, and that.
+/// The particle with the largest acceleration.
 struct Thrown {
   Numbered particle = {};
   double acceleration = 0;
@@ -64,7 +64,7 @@ std::pair<Numbered, double> nearest(Numbered const& p, Box const& box, std::vect
   return found;
 }
 
-/// A number that a reader can type, and not above.
+/// A number with two digits, not above x.
 double with_two_digits_below(double x) {
   double const unit = std::pow(10.0, std::floor(std::log10(x)) - 1);
   return unit * std::floor(x / unit);
@@ -88,7 +88,7 @@ StartForces forces_at_start(std::vector<Moved> const& moved, std::vector<AnyEnse
   double const way = 0.5 * step_size * step_size * worst.acceleration;
   if (!(way > allowed)) return found;
   UnitSystem const& units = box.spoken_units();
-  Dimension const unit = worst.particle.of->fields().front().dimension;  // of what moves: a length, an angle
+  Dimension const unit = worst.particle.of->fields().front().dimension;  // of the coordinate: a length, an angle
   auto const told = [&](double number) { return units.text(number, unit, 3); };
   std::string const further = std::isfinite(length) ? fmt::format("the length {} of its law", told(length))
                                                     : fmt::format("the box is wide, {}", told(allowed));
@@ -96,7 +96,7 @@ StartForces forces_at_start(std::vector<Moved> const& moved, std::vector<AnyEnse
   for (auto const* ensemble : all) count += ensemble->size();
   double const mean = std::pow(box.volume() / static_cast<double>(count), 1.0 / box.dimension());
   auto const [other, distance] = nearest(worst.particle, box, all);
-  // Where the law has no length: near, and thrown so far that another step is no cure.
+  // If the law has no length: the particles are near, and move so far that another step is no cure.
   bool const overlap = std::isfinite(length) ? distance < 0.5 * length
                                              : distance < 0.25 * mean && found.step < 0.1 * std::abs(step_size);
   if (other.of && overlap) {

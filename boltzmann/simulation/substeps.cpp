@@ -1,4 +1,4 @@
-// The longest substep of a state.
+// Computes the longest substep of a state.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/simulation/substeps.hpp>
 

@@ -10,7 +10,7 @@
 namespace boltzmann {
 namespace {
 
-/// Calls function(velocity, mass, dimension) for each that moves; a class without mass has 0.
+/// Calls function(velocity, mass, dimension) for each moving particle; the mass is 0 if the class has none.
 template <class Function>
 void each_velocity(std::vector<ChosenParticles> const& of, Function const& function) {
   for (auto const& [ensemble, which] : of) {

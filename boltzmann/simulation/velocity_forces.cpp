@@ -1,4 +1,4 @@
-// Leap-frog where forces depend on velocities: which ensembles, and the second half kick.
+// Leap-frog with forces that depend on velocities: selection of ensembles, and the second half kick.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/threads.hpp>
 #include <boltzmann/simulation/velocity_forces_parts.hpp>
@@ -15,10 +15,10 @@ namespace boltzmann {
 namespace {
 
 constexpr double squared(double x) { return x * x; }
-// Changes of velocities from one turn of the iteration to the next, in parts of the velocities, squared.
-constexpr double converged = squared(1e-12);       // the last turn
-constexpr double rounding_errors = squared(1e-8);  // below it, changes that no longer fall
-constexpr double least_speed = 1e-3;               // in parts of the fastest particle's: slower ones count as this fast
+// Changes of velocities between two iterations, relative to the velocities, squared.
+constexpr double converged = squared(1e-12);       // ends the iteration
+constexpr double rounding_errors = squared(1e-8);  // below it, changes that no longer decrease
+constexpr double least_speed = 1e-3;               // relative to the fastest particle: slower ones count as this fast
 constexpr int most_turns = 60;
 
 bool moves_by_newton(AnyEnsemble const& ensemble) {
@@ -123,7 +123,7 @@ void VelocityForces::find(std::vector<Scheme*> const& schemes, std::vector<Mover
     if (part) part->separate({source->outside.begin(), source->outside.end()}, source->between);
     if (source->between || !source->outside.empty()) sources_.push_back(std::move(source));
   }
-  // All laws from outside on an ensemble act together, whichever scheme has them.
+  // All external laws on an ensemble act together, even of different schemes.
   for (auto& source : sources_) {
     if (!source->part) continue;
     for (auto& one : drifting_)
@@ -172,7 +172,7 @@ void VelocityForces::add_outside(double time, bool of_drifting) {
 }
 
 void VelocityForces::complete(double time, bool before_second_kick) {
-  // The first source that has an ensemble keeps its influences.
+  // The first source of an ensemble keeps its influences.
   std::vector<AnyEnsemble*> kept;
   for (auto const& source : sources_) {
     source->targets = source->scheme->ensembles();
@@ -202,7 +202,7 @@ void VelocityForces::refresh(double time) {
   add_outside(time, true);
 }
 
-/// The kick from the rows that were kept, with the influences of now. Returns the greatest relative change of a velocity,
+/// The kick from the saved rows, with the current influences. Returns the largest relative change of a velocity,
 /// squared; infinite if one is not finite.
 double VelocityForces::kick(int stage, StepContext const& context, Division* division, int threads) {
   double most = 0;

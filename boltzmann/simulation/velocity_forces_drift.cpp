@@ -1,4 +1,4 @@
-// Leap-frog where forces depend on velocities: those from outside, during the drift.
+// Leap-frog with forces that depend on velocities: external ones, during the drift.
 #include <boltzmann/core/threads.hpp>
 #include <boltzmann/simulation/velocity_forces_parts.hpp>
 
@@ -12,14 +12,14 @@
 namespace boltzmann {
 namespace {
 
-constexpr std::size_t most_of_block = 64;  // particles, whose rows stay in the first-level cache
+constexpr std::size_t most_of_block = 64;  // particles, whose rows fit the first-level cache
 constexpr int most_midpoint_turns = 50;
-constexpr double midpoint_found = 1e-14;    // a change of a velocity, in parts of it
-constexpr double midpoint_rounding = 1e-9;  // below it, changes that no longer fall are rounding errors
-constexpr double worth_a_response = 1e-6;   // above it, the response to velocities saves turns
-constexpr double response_shift = 0x1p-8;   // of a velocity, in parts of it
+constexpr double midpoint_found = 1e-14;    // relative change of a velocity
+constexpr double midpoint_rounding = 1e-9;  // below it, changes that no longer decrease are rounding errors
+constexpr double worth_a_response = 1e-6;   // above it, the response to velocities saves iterations
+constexpr double response_shift = 0x1p-8;   // relative shift of a velocity
 
-/// Solves (1 - B) x = b by elimination with pivots; leaves b where the matrix is singular.
+/// Solves (1 - B) x = b by elimination with pivots; leaves b unchanged if the matrix is singular.
 void solve_response(int D, double const (&B)[3][3], double* b) {
   double m[3][4];
   for (int r = 0; r < D; ++r) {
@@ -40,7 +40,7 @@ void solve_response(int D, double const (&B)[3][3], double* b) {
   for (int k = 0; k < D; ++k) b[k] = m[k][D] / m[k][k];
 }
 
-/// The midpoint of a step for a block of particles. Each is solved for by itself: no bit depends on the others.
+/// The midpoints of a step for a block of particles. Each is solved separately, so no bit depends on the others.
 class Midpoints {
  public:
   /// Adds the influences at trial rows of particles `first` and following ones.
@@ -53,8 +53,8 @@ class Midpoints {
       : at_(places), half_(0.5 * dt), outside_(outside), rows_(most_of_block * places.stride / 4) {}
 
   double* row(std::size_t k) { return rows_.data()->numbers + k * at_.stride; }
-  /// `start` is the row at the start of the step, `v` the velocity after the first half kick, `force` that from outside
-  /// at the start. row(k) holds all other fields at the midpoint.
+  /// `start` is the row at the start of the step, `v` the velocity after the first half kick, `force` the external
+  /// force at the start. row(k) has all other fields at the midpoint.
   void set(std::size_t k, double const* start, double const* v, double const* force) {
     One& one = all_[k];
     one.inverse_mass = 1 / start[at_.mass];
@@ -67,7 +67,7 @@ class Midpoints {
     }
   }
   void leave_out(std::size_t k) { all_[k].state = State::found; }
-  /// The first of `count` particles for which there is none; count: all have one.
+  /// The first of `count` particles without convergence; count if all converged.
   std::size_t find(std::size_t first, std::size_t count) {
     for (int turn = 0; turn < most_midpoint_turns; ++turn) {
       evaluate(first, count, -1);
@@ -96,7 +96,7 @@ class Midpoints {
 
  private:
   enum class State { searching, found };
-  struct alignas(32) Block {  // as rows are
+  struct alignas(32) Block {  // the alignment of rows
     double numbers[4];
   };
   struct One {
@@ -142,7 +142,7 @@ class Midpoints {
     bool const done = one.change <= midpoint_found * scale ||
                       (turn > 2 && one.change <= midpoint_rounding * scale && one.change > 0.25 * before);
     if (!done && std::isfinite(one.change)) return;
-    one.state = State::found;  // what is not finite is found by the next stage
+    one.state = State::found;  // the next stage reports numbers that are not finite
     std::copy_n(after, at_.D, one.mid);
   }
   /// The derivatives of the velocity by the midpoint's, from differences: exact for forces that are linear in it.

@@ -1,4 +1,4 @@
-// What VelocityForces keeps of schemes and ensembles. Private to velocity_forces*.cpp.
+// The data of VelocityForces on schemes and ensembles. Private to velocity_forces*.cpp.
 #pragma once
 
 #include <boltzmann/particles/newton.hpp>
@@ -12,12 +12,12 @@
 
 namespace boltzmann {
 
-/// A scheme, and its part that depends on velocities; null: all of it does, and counts as `between`.
+/// A scheme, and its part that depends on velocities; null: the whole scheme does, and counts as `between`.
 struct VelocityForces::Source {
   Scheme* scheme = nullptr;
   VelocityInfluences* part = nullptr;
   bool between = false;
-  std::vector<AnyEnsemble*> outside;  // of which laws from outside are added here
+  std::vector<AnyEnsemble*> outside;  // ensembles whose external laws are added here
   std::vector<AnyEnsemble*> targets;
   std::vector<std::vector<double>> others;  // of each target: influences that don't depend on velocities
 };
@@ -31,7 +31,7 @@ struct VelocityForces::Kicked {
   int offset;  // of the velocity in a row
   std::size_t D;
   std::vector<double> rows, tried;  // before the kick; velocities for which influences were calculated
-  double fastest;                   // the square of the greatest speed
+  double fastest;                   // square of the largest speed
 
   double* velocity(std::size_t i) const { return ensemble->row(i) + offset; }
   template <class F>
@@ -47,15 +47,15 @@ struct VelocityForces::Kicked {
   double change(int threads) const;
 };
 
-/// An ensemble on which forces from outside act during the drift.
+/// An ensemble on which external forces act during the drift.
 struct VelocityForces::Drifting {
   Drifting(AnyEnsemble& of, Integrator& by);
 
   AnyEnsemble* ensemble;
   Integrator* integrator;
-  int position, velocity, mass;       // where they are in a row
-  std::vector<int> driven;            // numbers that have rates of their own
-  std::vector<double> rows, outside;  // at the start of the step: rows, and influences from outside
+  int position, velocity, mass;       // offsets in a row
+  std::vector<int> driven;            // numbers with rates of their own
+  std::vector<double> rows, outside;  // at the start of the step: rows, and external influences
 };
 
 }  // namespace boltzmann

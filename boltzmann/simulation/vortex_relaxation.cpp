@@ -1,4 +1,4 @@
-// The curl at every vortex, and what becomes of its vorticity.
+// The curl at every vortex, and the change of its vorticity.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/exact_sum.hpp>
 #include <boltzmann/schemes/multipole/multipole_scheme.hpp>
@@ -14,7 +14,7 @@
 namespace boltzmann {
 namespace {
 
-/// Whether the flow changes its vorticity.
+/// True if the flow changes its vorticity.
 bool is_stretched(AnyEnsemble const& ensemble) { return ensemble.influence_size() >= 6; }
 
 }  // namespace
@@ -45,7 +45,7 @@ VortexRelaxation::VortexRelaxation(std::vector<Scheme*> schemes, Relaxing const&
 VortexRelaxation::~VortexRelaxation() = default;
 VortexRelaxation::VortexRelaxation(VortexRelaxation&&) noexcept = default;
 
-/// Of the flow at all vortices, in their order.
+/// The velocity gradients of the flow at all vortices, in their order.
 std::vector<double> VortexRelaxation::slopes() {
   int const threads = schemes_.front()->threads();
   if (multipoles_) {
@@ -72,7 +72,7 @@ void VortexRelaxation::change() {
       double* const vorticity = ensemble.row(i) + offset;
       Vector<3> const alpha{vorticity[0], vorticity[1], vorticity[2]};
       Vector<3> curl = curl_of(flow.data() + at * VortexFlow::width(3));
-      // Expansions leave an element's own flow out: it does not move itself, but turns.
+      // Expansions exclude an element's own flow, which turns it without moving it.
       if (multipoles_) curl += alpha * own_turning(source.law, ensemble.row(i)[core]);
       double const length = magnitude(alpha), size = magnitude(curl);
       if (!(size > 0)) continue;
@@ -108,7 +108,7 @@ void VortexRelaxation::restore(std::span<double const> state) {
   times_ = state[0], misfit_ = state[1], first_ = state[2];
   if (!multipoles_) return;
   multipoles_->restore(state.subspan(3));
-  multipoles_->influences_restored();  // no calculation is repeated
+  multipoles_->influences_restored();  // no calculation needs to be repeated
 }
 
 OptionTable const& relaxation_options() {

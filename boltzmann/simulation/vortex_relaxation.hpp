@@ -1,4 +1,5 @@
-// Vortex relaxation: turns the vorticity of vortices in 3D towards the curl of their velocity, which has no divergence.
+// Vortex relaxation: turns the vorticity of vortices in 3D towards the curl of their velocity, which is free of
+// divergence.
 //
 //   simulation.adapt(5, VortexRelaxation(scheme, {.fraction = 0.3}));
 #pragma once
@@ -20,15 +21,15 @@ class MultipoleScheme;
 /// alpha becomes (1 - fraction) alpha + fraction |alpha| c / |c|, c the curl of the velocity at the element (G. Pedrizzetti,
 /// Fluid Dyn. Res. 10, 101 (1992), with fraction = f dt).
 struct Relaxing {
-  double fraction = 0.3;  ///< each time
-  bool corrected = true;  ///< and gets the length that alpha had, which else becomes shorter where it turns
+  double fraction = 0.3;  ///< per change
+  bool corrected = true;  ///< rescales alpha to its old length, which otherwise decreases where it turns
 };
 
 class VortexRelaxation final : public Adaptation, public KeepsNumbers {
  public:
-  /// Of the Inviscid and Viscous that act in this scheme, or in all of these; they must outlive it. The curl is found by
-  /// pairs, or by multipoles where a scheme of multipoles has vortices. Error if there are none, if space has not 3
-  /// dimensions, or unless 0 < fraction <= 1.
+  /// Acts on the Inviscid and Viscous vortices of this scheme, or of all these schemes, which must outlive it. The curl
+  /// is computed by pairs, or by multipoles for vortices in a multipole scheme. Error if there are none, if space has
+  /// not 3 dimensions, or unless 0 < fraction <= 1.
   VortexRelaxation(Scheme& scheme, Relaxing const& relaxing);
   VortexRelaxation(std::vector<Scheme*> schemes, Relaxing const& relaxing);
   ~VortexRelaxation() override;
@@ -39,8 +40,8 @@ class VortexRelaxation final : public Adaptation, public KeepsNumbers {
   std::vector<double> state() const override;
   void restore(std::span<double const> state) override;
 
-  /// How far the vorticity was turned the last time: the square root of sum |change|^2 / sum |alpha|^2 by a fraction of 1
-  /// without a correction; 0 where nothing has a divergence.
+  /// The change of vorticity in the last relaxation: the square root of sum |change|^2 / sum |alpha|^2 for a fraction
+  /// of 1 without correction; 0 if the vorticity is free of divergence.
   double misfit() const { return misfit_; }
 
  private:

@@ -1,4 +1,5 @@
-// Ranks that speak in rounds: what each says, all know in the same round, and so all know alike who takes which run.
+// Ranks exchange messages in rounds. Every rank sees the same messages in a round, so all agree on the assignment of
+// runs.
 #include <boltzmann/core/clock.hpp>
 #include <boltzmann/sweep/run_farm.hpp>
 
@@ -18,7 +19,7 @@ namespace {
 
 constexpr std::int64_t none = -1;
 
-/// A line for what has one, the numbers first.
+/// Serialises a message: the numbers first, then the text.
 std::string text_of(FarmWord const& word) {
   std::string text = fmt::format("{} {:d} {} {:d} {:d} {} {:d} {} {}\n{}\n", word.run, word.ended,
                                  static_cast<int>(word.end.state), word.end.interrupted, word.end.out_of_time,
@@ -70,7 +71,7 @@ void FarmHand::stop() {
   if (simulation_) simulation_->stop();
 }
 
-/// One rank of it.
+/// The farm, as one rank runs it.
 class RunFarm {
  public:
   RunFarm(std::vector<std::size_t> const& runs, FarmCalls const& calls)
@@ -95,7 +96,7 @@ class RunFarm {
   }
 
  private:
-  /// The same on every rank.
+  /// Assigns waiting runs to free ranks. The result is the same on every rank.
   void take_runs() {
     for (std::size_t r = 0; r < taken_.size() && given_ < runs_.size() && !stopping_; ++r) {
       if (taken_[r] != none) continue;
@@ -125,7 +126,8 @@ class RunFarm {
     });
   }
 
-  /// Until the run here has ended; a twentieth of the time since anything has happened, for others may have ended.
+  /// Waits until the local run has ended. The timeout is a twentieth of the time since the last event, because runs of
+  /// other ranks may have ended.
   void wait() {
     std::unique_lock lock(ending_);
     at_end_.wait_for(lock, clock_time(std::clamp(seconds_since(changed_) / 20, 1e-3, 0.1)),
@@ -168,7 +170,7 @@ class RunFarm {
   Team& team_;
   std::vector<std::size_t> const& runs_;
   FarmCalls const& calls_;
-  std::vector<std::int64_t> taken_;  // of each rank
+  std::vector<std::int64_t> taken_;  // per rank
   std::size_t given_ = 0;
   bool stopping_ = false;
   Clock::time_point changed_ = Clock::now();

@@ -1,4 +1,4 @@
-// A farm of runs: each rank of a team takes whole runs, one after the other, and all ranks hear how each has ended.
+// A farm of runs: each rank of a team executes whole runs, one after the other. All ranks learn how each run has ended.
 #pragma once
 
 #include <boltzmann/core/team.hpp>
@@ -16,27 +16,27 @@ namespace boltzmann {
 
 enum class RunState { waiting, done, failed };
 
-/// How a run of a sweep has ended; waiting: it was stopped.
+/// The end of a run of a sweep. State `waiting`: it was stopped before its end.
 struct RunEnd {
   RunState state = RunState::waiting;
-  std::string reason;  ///< of a failure, in one line
+  std::string reason;  ///< why it failed, in one line
   bool interrupted = false, out_of_time = false;
 };
 
-/// What a run has to say while a rank does it, in a thread of its own, in which the team is that rank alone.
+/// Messages of a run that a rank executes in a thread of its own. In that thread, the team consists of that rank alone.
 class FarmHand {
  public:
   FarmHand() = default;
   FarmHand(FarmHand const&) = delete;
   FarmHand& operator=(FarmHand const&) = delete;
 
-  /// What rank 0 prints on standard error; of warnings those that no run has given before.
+  /// Queues a line that rank 0 prints on standard error. A warning that another run has given before is dropped.
   void tell(std::string const& text) { add(lines_, text); }
   void warn(std::string const& text) { add(warnings_, text); }
-  /// So much of the run is done.
+  /// Reports the fraction of the run that is done.
   void part(double of_run) { part_ = of_run; }
 
-  /// While it lives, the farm may stop this simulation.
+  /// While this object exists, the farm may stop the simulation.
   class Stoppable {
    public:
     Stoppable(FarmHand& hand, Simulation& simulation);
@@ -60,27 +60,28 @@ class FarmHand {
   bool stopping_ = false;
 };
 
-/// What a rank has said since it was heard last.
+/// The message of a rank in one round: what has happened since the previous round.
 struct FarmWord {
-  std::int64_t run = -1;  ///< that it does, or has done; -1: none
-  bool ended = false;     ///< and so: `end`
+  std::int64_t run = -1;  ///< the run in progress, or the one that has ended; -1: none
+  bool ended = false;     ///< true: the run has ended as `end`
   RunEnd end;
   std::vector<std::string> lines, warnings;
   double part = 0;
-  bool stop = false;  ///< it has been told to stop, or has failed: no other run begins
+  bool stop = false;  ///< stop was requested, or a call failed: no further run starts
 };
 
 struct FarmCalls {
-  /// Does a run, on the rank that has taken it.
+  /// Executes a run, on the rank to which it is assigned.
   std::function<RunEnd(std::size_t run, FarmHand& hand)> perform;
-  /// Whether this rank has been told to stop.
+  /// True if this rank has a request to stop.
   std::function<bool()> stop;
-  /// What all ranks have said, on every rank.
+  /// Receives the messages of all ranks in a round, on every rank.
   std::function<void(std::vector<FarmWord> const& words)> hear;
 };
 
-/// Does these runs, each on one rank: the next one is for whoever is free. For all ranks together; what one throws, all
-/// throw when the others have stopped. The thread that calls speaks with the other ranks, ten times a second or more.
+/// Executes these runs, each on one rank. A free rank gets the next run. A collective call: if one rank throws, all
+/// throw once the others have stopped. The calling thread exchanges messages with the other ranks at least ten times a
+/// second.
 void farm_runs(std::vector<std::size_t> const& runs, FarmCalls const& calls);
 
 }  // namespace boltzmann

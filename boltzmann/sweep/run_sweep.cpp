@@ -1,4 +1,5 @@
-// A sweep from its first run to its tables; runs.csv says which runs are done. Ranks of a team do whole runs, each its own.
+// Runs a sweep from the first run to its tables; runs.csv records which runs are done. On several ranks, each executes
+// whole runs.
 #include <boltzmann/core/clock.hpp>
 #include <boltzmann/core/team.hpp>
 #include <boltzmann/files/checkpoint.hpp>
@@ -31,12 +32,12 @@ constexpr char const* heading_of_runs = "run,folder,seed,state,reason";
 constexpr char const* state_words[] = {"waiting", "done", "failed"};
 
 struct SweepRun {
-  std::string folder;  // in that of the sweep
+  std::string folder;  // relative to the folder of the sweep
   RunState state = RunState::waiting;
-  std::string reason;  // of a failure
+  std::string reason;  // of a failed run
 };
 
-/// What is left of a text in the name of a folder.
+/// Reduces a text to characters that are safe in the name of a folder.
 std::string short_name(std::string const& text) {
   std::string name;
   for (char const c : text) {
@@ -103,7 +104,7 @@ std::vector<std::vector<std::string>> rows_of_runs(std::string const& folder) {
   return rows;
 }
 
-/// What runs.csv knows of them. A run whose folder has been taken away waits again.
+/// Reads the states of runs from runs.csv. A run whose folder has been removed is waiting again.
 void read_states(std::string const& folder, std::vector<SweepRun>& runs) {
   auto const rows = rows_of_runs(folder);
   for (auto& run : runs)
@@ -114,7 +115,7 @@ void read_states(std::string const& folder, std::vector<SweepRun>& runs) {
     }
 }
 
-/// What rank 0 knows of them, on every rank.
+/// Broadcasts the states of runs from rank 0.
 void tell_states(std::vector<SweepRun>& runs) {
   std::string text;
   for (auto const& run : runs) text += fmt::format("{}{}\n", static_cast<int>(run.state), run.reason);
@@ -127,7 +128,7 @@ void tell_states(std::vector<SweepRun>& runs) {
   }
 }
 
-/// A scenario as it is stored, but for the number of threads, which changes nothing.
+/// The stored scenario without the number of threads, which does not change results.
 std::string without_threads(std::string const& text) {
   std::istringstream lines(text);
   std::string result, line;
@@ -136,7 +137,7 @@ std::string without_threads(std::string const& text) {
   return result;
 }
 
-/// Error if what a run's folder holds is not the run that sweep.toml describes.
+/// Throws Error if the folder of a run holds another run than the one that sweep.toml describes.
 void check_scenario(std::string const& folder, SweepRun const& run, std::size_t number, std::string const& stored,
                     std::string const& what) {
   Overrides chosen;
@@ -148,7 +149,7 @@ void check_scenario(std::string const& folder, SweepRun const& run, std::size_t 
                   folder, run.folder, what, number + 1));
 }
 
-/// Runs that are done must not be taken for those of a sweep.toml that has been edited since.
+/// Finished runs must not be accepted if sweep.toml has been edited since.
 void check_runs_before(std::string const& folder, std::vector<SweepRun> const& runs) {
   auto const edited = fs::last_write_time(folder + "/sweep.toml");
   for (std::size_t r = 0; r < runs.size(); ++r) {
@@ -158,19 +159,19 @@ void check_runs_before(std::string const& folder, std::vector<SweepRun> const& r
   }
 }
 
-/// One line for all runs: on a terminal it is rewritten five times a second, elsewhere there is one for each run.
+/// One line for all runs. On a terminal it is redrawn five times a second; elsewhere one line is printed per run.
 class SweepProgress {
  public:
   SweepProgress(SweepPlan const& plan, std::size_t done, bool quiet)
       : plan_(plan), done_(done), quiet_(quiet), terminal_(rewrites_lines()) {}
 
-  /// Whether it wants to know how far runs are.
+  /// True if it needs the progress of runs between their ends.
   bool drawn() const { return !quiet_ && terminal_; }
-  /// So far is a run that has begun at a part of it.
+  /// Progress of a single run: the fraction done; `since` is the fraction at which this process started it.
   void draw(std::size_t run, double part, double since) {
     if (due()) print(fmt::format("{}: {:.0f} %; {}", run_name(plan_, run), 100 * part, all(part, part - since)));
   }
-  /// So many runs are under way, and so much is done of them together.
+  /// Progress of several concurrent runs: their number, and the sum of the fractions done.
   void draw(std::size_t under_way, double parts) {
     if (due())
       print(fmt::format("{} of {} runs done, {} under way; {}", done_, plan_.runs(), under_way, all(parts, parts)));
@@ -196,13 +197,14 @@ class SweepProgress {
     fmt::print(stderr, "\r{}\033[K", line);
     std::fflush(stderr);
   }
-  /// `parts` of present runs are done, `worked` of them since the start.
+  /// `parts`: fractions of the current runs that are done; `worked`: those done since the start.
   std::string all(double parts, double worked) const {
     auto const total = static_cast<double>(plan_.runs());
     double const now = static_cast<double>(done_) + parts;
     worked += static_cast<double>(here_);
     std::string const part = fmt::format("{:.0f} % of all", std::floor(100 * now / total));
-    if (worked < 0.02) return part;  // what comes before the first steps would count for thousands of them
+    // the setup before the first step would be multiplied by the number of all remaining steps
+    if (worked < 0.02) return part;
     return part + fmt::format(", {} left", duration_text((total - now) / worked * elapsed()));
   }
 
@@ -213,7 +215,7 @@ class SweepProgress {
   double shown_ = 0;
 };
 
-/// Calls it with the part of a run that is done, as often as a line is worth drawing.
+/// Calls `part` with the fraction done, as often as the progress line is redrawn.
 void follow(Simulation& simulation, std::int64_t last, std::function<void(double part)> call) {
   simulation.observe_progress([first = simulation.step(), last, next = simulation.step(), begun = Clock::now(),
                                call = std::move(call)](Simulation const& now) mutable {
@@ -226,7 +228,7 @@ void follow(Simulation& simulation, std::int64_t last, std::function<void(double
   });
 }
 
-/// A text without its numbers.
+/// The text without its numbers.
 std::string words_of(std::string text) {
   std::erase_if(text, [](unsigned char c) { return std::isdigit(c) != 0 || c == '.'; });
   return text;
@@ -243,7 +245,7 @@ std::vector<std::string> warnings_of(Simulation const& simulation) {
   return all;
 }
 
-/// Warnings that no run has given before: those of other seeds have mostly other numbers alone.
+/// Filters out warnings that an earlier run has given. Warnings of other seeds mostly differ only in their numbers.
 class SweepWarnings {
  public:
   void tell(std::string const& name, std::string const& line) {
@@ -256,11 +258,11 @@ class SweepWarnings {
   std::vector<std::string> told_;
 };
 
-/// What a run calls.
+/// Callbacks of a run.
 struct RunCalls {
   std::function<void(Simulation& simulation, std::int64_t first, std::int64_t last)> begins;
   std::function<void(std::string const&line)> warn, tell;
-  FarmHand* hand = nullptr;  ///< of the rank that does it alone
+  FarmHand* hand = nullptr;  ///< messages to the other ranks, if this rank executes the run alone
 };
 
 std::string one_line(std::string text) {
@@ -285,7 +287,7 @@ class SweepRuns {
         progress_(plan, before_, quiet) {}
 
   std::size_t done_before() const { return before_; }
-  /// Whether each rank does whole runs, not all together each: then there are enough of them.
+  /// True if there are enough runs for each rank to execute whole runs. Otherwise all ranks execute each run together.
   bool spread() const {
     return !team().alone() && !attend_ && runs_.size() - before_ >= static_cast<std::size_t>(team().size());
   }
@@ -298,7 +300,7 @@ class SweepRuns {
     return report_;
   }
 
-  /// The folders of those that are done; empty for the others.
+  /// The folders of the finished runs; empty for the others.
   std::vector<std::string> folders() const {
     std::vector<std::string> all;
     all.reserve(runs_.size());
@@ -321,7 +323,7 @@ class SweepRuns {
 
   void perform_one_by_one() {
     DelayedSync files(lasting_);
-    // Runs count as done once their files are on the disk.
+    // A run counts as done once its files are on the disk.
     auto const store = [&] {
       files.flush(folder_);
       team().on_first([&] { write_runs(folder_, plan_, runs_); });
@@ -411,13 +413,13 @@ class SweepRuns {
       end = do_run(number, calls);
     } catch (PhysicsFailure const& failure) {
       end = {RunState::failed, one_line(failure.what())};
-    } catch (ScenarioErrors const& errors) {  // of this seed alone: all values have been tried
+    } catch (ScenarioErrors const& errors) {  // only this seed fails: check_sweep() has loaded all values
       end = {RunState::failed, one_line(errors.what())};
     }
     return end;
   }
 
-  /// Does one run, or the rest of it.
+  /// Executes one run, or the rest of it.
   RunEnd do_run(std::size_t number, RunCalls const& calls) const {
     SweepRun const& run = runs_[number];
     std::string const place = folder_ + "/" + run.folder, stored = place + "/checkpoint.h5";
@@ -508,7 +510,7 @@ SweepReport do_runs(std::string const& folder, SweepPlan const& plan, std::strin
   return report;
 }
 
-/// Whether these are the same state, from which nothing random leads on.
+/// True if both have the same state and nothing random in the run can make them differ.
 bool same_without_chance(ScenarioSimulation const& one, ScenarioSimulation const& other) {
   if (!one.simulation->dissipations().empty() || one.simulation->equilibrates()) return false;
   auto const &a = one.ensembles, &b = other.ensembles;
@@ -517,7 +519,7 @@ bool same_without_chance(ScenarioSimulation const& one, ScenarioSimulation const
   return true;
 }
 
-/// The scenario of one run, whether it can be run.
+/// Loads the scenario of one run and checks that it can be run.
 void try_run(ScenarioSimulation& scenario, std::string const& folder) {
   auto const recording = make_recording(scenario, folder, {.overwrite = true});
   scenario.simulation->check();
@@ -585,7 +587,7 @@ SweepReport run_sweep(SweepOptions const& options, WallTime const& wall, std::un
   std::string const title = title_of(*scenario, folder);
   {
     auto const recording =
-        make_recording(*scenario, folder, {.overwrite = options.force});  // says if the folder can't be used
+        make_recording(*scenario, folder, {.overwrite = options.force});  // throws if the folder can't be used
     scenario->simulation->check();
     recording->check();
   }

@@ -1,4 +1,4 @@
-// Means over the seeds. A run counts once for its value: its last row, or its mean over the rows since `from`.
+// Means over the seeds. The sample of a run is its last row, or its mean over the rows since `from`.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/diagnoses/statistics.hpp>
 #include <boltzmann/files/csv.hpp>
@@ -19,7 +19,7 @@ namespace {
 
 using Values = std::vector<double>;
 
-/// A word of a table: in quotation marks where it needs them.
+/// A field of a CSV table, quoted if necessary.
 std::string word(std::string const& text) {
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
   std::string result = "\"";
@@ -69,7 +69,7 @@ class Results {
     throw Error("there is no column '" + name + "'");
   }
 
-  /// What a run says of a column.
+  /// The sample of a run for a column.
   double of_run(std::size_t run, std::size_t column) const {
     auto const& time = runs_[run][0];
     auto const& values = runs_[run][column];
@@ -85,7 +85,7 @@ class Results {
     each_run(value, [&](std::size_t run) { seeds.push_back(of_run(run, column)); });
     return mean_with_error(seeds);
   }
-  /// The rows that all runs of a value have.
+  /// The number of rows that all runs of a value have.
   std::size_t rows(std::size_t value) const {
     std::size_t rows = 0;
     bool first = true;
@@ -109,7 +109,7 @@ class Results {
 
  private:
   SweepPlan const& plan_;
-  std::vector<std::vector<Values>> runs_;  // of each run the columns, as in the plan
+  std::vector<std::vector<Values>> runs_;  // per run, the columns in the order of the plan
 };
 
 std::string key_headings(SweepPlan const& plan) {
@@ -168,7 +168,7 @@ std::string series_table(SweepPlan const& plan, Results const& results) {
   return text;
 }
 
-/// The table on the screen, in blocks of as many columns as fit.
+/// Prints the table in blocks of as many columns as fit the terminal.
 void print_table(SweepPlan const& plan, Results const& results) {
   constexpr std::size_t widest = 110;
   std::size_t left = 0;
@@ -212,7 +212,7 @@ struct Points {
   Values x, y, x_error, y_error;
 };
 
-/// Draws one picture, and notes its fits.
+/// Draws one picture and records its fits.
 class Drawer {
  public:
   Drawer(SweepPlan const& plan, Results const& results, std::string const& title)
@@ -224,7 +224,7 @@ class Drawer {
       canvas.note(fmt::format("means over {} seeds, bars of one standard error each way", plan_.seeds));
     return canvas;
   }
-  /// Lines for people, and for fits.csv.
+  /// The fits as lines for the terminal and for fits.csv.
   std::vector<std::string> const& told() const { return told_; }
   std::string const& table() const { return table_; }
 
@@ -235,7 +235,7 @@ class Drawer {
     return nullptr;
   }
 
-  /// The axis of some columns: its name is that of the one, its unit that of all.
+  /// The axis for one or more columns: the name if there is one column, and their common unit.
   Axis axis_of(SweepPicture const& picture) const {
     auto const& first = plan_.columns[results_.column(picture.y[0])];
     Axis axis{picture.y.size() == 1 ? first.name : "", common_unit(picture) ? first.unit : ""};

@@ -1,4 +1,4 @@
-// With mode 600, since who knows the token may steer the run.
+// Files have mode 600, because the token permits control of the run.
 #include <arpa/inet.h>
 #include <fcntl.h>
 #include <netinet/in.h>
@@ -24,7 +24,7 @@ namespace {
 
 std::string path_in(std::string const& folder) { return folder + "/window.txt"; }
 
-// Whether a line is an address as we write it, so that nothing else is ever printed.
+// True if a line is an address in this program's format, so that nothing else is ever printed.
 bool is_address(std::string_view line) {
   constexpr std::string_view begin = "http://127.0.0.1:",
                              letters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-._~%";
@@ -63,7 +63,7 @@ AddressFile::AddressFile(std::string folder, std::string address)
   own_window_file(folder);
   std::filesystem::remove(path_, ignored);
   int const file = open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
-  if (file < 0) return;  // the run itself will say what is wrong with the folder
+  if (file < 0) return;  // the run itself reports what is wrong with the folder
   std::string const line = address_ + "\n";
   if (write(file, line.data(), line.size()) != static_cast<ssize_t>(line.size()))
     std::filesystem::remove(path_, ignored);
@@ -78,7 +78,7 @@ AddressFile::~AddressFile() {
 }
 
 Announcement::Announcement(std::string const& what, std::string const& address) {
-  // A launcher gives ranks a terminal, whoever reads what comes out of it.
+  // A launcher gives ranks a terminal even if its own output is redirected.
   if (isatty(STDOUT_FILENO) == 1 && team().alone()) {
     fmt::print("{}: {}\n", what, address);
   } else {

@@ -1,4 +1,4 @@
-// Address file: where the window of the run in a folder is, for those who come later; readable by its owner only.
+// Address file: stores the address of the window of the run in a folder; readable only by its owner.
 #pragma once
 
 #include <optional>
@@ -6,7 +6,7 @@
 
 namespace boltzmann {
 
-/// While it lives, `folder`/window.txt holds the address (from the moment on at which the folder exists).
+/// While this object exists, `folder`/window.txt contains the address (as soon as the folder exists).
 class AddressFile {
  public:
   AddressFile(std::string folder, std::string address);
@@ -18,11 +18,12 @@ class AddressFile {
   std::string path_, address_;
 };
 
-/// Says the address of a window on standard output: on a terminal, "window: http://..."; elsewhere, where others may
-/// read it, in which file it stands, which its owner alone may read and which is gone with the announcement.
+/// Prints the address of a window on standard output. On a terminal: "window: http://...". Elsewhere, where others may
+/// read the output, it prints the name of a file with the address, which only its owner can read and which is removed
+/// with this object.
 class Announcement {
  public:
-  /// `what`: "window", "gallery". Error if there is no place for the file.
+  /// `what`: "window", "gallery". Throws Error if the file can't be created.
   Announcement(std::string const& what, std::string const& address);
   ~Announcement();
   Announcement(Announcement const&) = delete;
@@ -32,7 +33,7 @@ class Announcement {
   std::string path_;
 };
 
-/// The address in `folder`/window.txt, if somebody still listens there.
+/// The address in `folder`/window.txt, if a server still listens there.
 std::optional<std::string> living_window(std::string const& folder);
 
 }  // namespace boltzmann

@@ -1,7 +1,7 @@
-// The types of Boost.Asio, and the limits, that the server, its connections and its browsers share. Private to this room.
+// The Boost.Asio types and limits shared by the server, its connections and its browsers. Private to this module.
 #pragma once
 
-#define BOOST_ASIO_DISABLE_FENCED_BLOCK  // one thread has nobody to keep in step with
+#define BOOST_ASIO_DISABLE_FENCED_BLOCK  // a single thread needs no fences
 #include <boltzmann/core/clock.hpp>
 
 #include <boost/asio/basic_stream_socket.hpp>
@@ -14,15 +14,15 @@ namespace boltzmann::web {
 namespace asio = boost::asio;
 using boost::system::error_code;
 using tcp = asio::ip::tcp;
-// Sockets and clocks of this context only, which spares every operation an indirection.
+// Sockets and clocks are bound to this context type, which avoids type-erased executors.
 using Executor = asio::io_context::executor_type;
 using Socket = asio::basic_stream_socket<tcp, Executor>;
 using Timer = asio::basic_waitable_timer<Clock, asio::wait_traits<Clock>, Executor>;
 
-// A message leaves in frames of at most so many bytes: between two of them a pong may be sent, a browser may be let go,
-// and a slow line shows that it is alive.
+// A message is sent in frames of at most this size. Between two frames a pong can be sent and a browser can be dropped,
+// and a slow line shows progress.
 constexpr std::size_t frame_bytes = 1U << 18U;
-// A closed connection may finish reading what it was told for so many seconds.
+// Seconds in which a closed connection may finish reading its answer.
 constexpr double close_timeout = 1;
 
 }  // namespace boltzmann::web

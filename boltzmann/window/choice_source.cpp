@@ -1,4 +1,4 @@
-// Nothing to see yet but names.
+// The replies of a start page: no simulation exists yet.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/window/choice_source.hpp>
 
@@ -26,7 +26,7 @@ void ChoiceSource::wait() {
   }
 }
 
-// The page knows what else a start page lacks.
+// The page supplies the other members of a start page.
 json ChoiceSource::hello() const {
   std::string const why = "there is no simulation yet";
   return {{"type", "hello"},

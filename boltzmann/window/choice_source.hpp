@@ -1,4 +1,4 @@
-// Choice show: a start page on which something is chosen, before there is a simulation.
+// Choice source: a start page for a selection, before there is a simulation.
 #pragma once
 
 #include <boltzmann/window/clients.hpp>
@@ -27,10 +27,10 @@ class ChoiceSource : public Source {
   nlohmann::json particle(std::string const& ensemble, std::size_t number) const override;
 
  protected:
-  /// Until something is chosen or somebody has quit.
+  /// Waits until something is selected or a client quits.
   void wait();
   virtual bool chosen() const = 0;
-  /// Performs what is not "quit".
+  /// Performs any request other than "quit".
   virtual nlohmann::json answer(std::string const& what, nlohmann::json const& request) = 0;
 
  private:
@@ -40,7 +40,7 @@ class ChoiceSource : public Source {
   std::uint64_t notice_ = 1;
 };
 
-/// The text of a key of a request. Error if it has none.
+/// The text of a key of a request. Throws Error if it is missing.
 std::string need_text(nlohmann::json const& request, char const* key);
 
 }  // namespace boltzmann

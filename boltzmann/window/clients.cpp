@@ -1,4 +1,5 @@
-// Who looks at what, and the messages to and fro. Browsers speak on the server's thread, which only notes it down.
+// The views of each browser, and the messages in both directions. Messages of browsers arrive on the server's thread,
+// which only queues them.
 #include <boltzmann/core/clock.hpp>
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/nesting.hpp>
@@ -22,11 +23,11 @@ namespace {
 using nlohmann::json;
 
 constexpr std::size_t max_views = 8;
-constexpr std::size_t max_requests = 256;  // of one browser, not yet answered
+constexpr std::size_t max_requests = 256;  // unanswered, of one browser
 constexpr std::uint64_t never_drawn = ~std::uint64_t{0};
-constexpr double watching_seconds = 10;  // a slow page may take some for one picture
+constexpr double watching_seconds = 10;  // a slow page may take several seconds for one picture
 
-/// The page, whose one script knows a nonce of this answer alone.
+/// The page. Its only script has a nonce that is unique to this answer.
 WebFile page() {
   constexpr std::string_view script = "<script type=\"module\"";
   std::string html(page_html()), nonce = random_token();
@@ -38,7 +39,7 @@ WebFile page() {
 struct Wanted {
   int id;
   json view;
-  std::string key;  // the same for views that show the same
+  std::string key;  // equal for views that show the same
   std::uint64_t drawn = never_drawn;
 };
 
@@ -48,7 +49,7 @@ struct Browser {
   std::int64_t rows = 0, table = -1;
   Clock::time_point last_ready{};
   std::size_t requests = 0;
-  // Of the simulation's thread.
+  // Used by the simulation's thread.
   std::vector<Wanted> views;
   std::uint64_t scene = never_drawn, notice = never_drawn, crowd = never_drawn;
   std::optional<std::pair<std::string, std::size_t>> selected;
@@ -57,10 +58,10 @@ struct Browser {
 
 struct Said {
   std::uint64_t browser;
-  json request;  // null: it has just come
+  json request;  // null: the browser has just connected
 };
 
-// A view, with the numbers that JSON has no other word for taken out.
+// A view, with numbers that are not finite removed.
 json view_of(json const& given) {
   if (!given.is_object()) throw Error("a view is an object, {\"id\":1,\"diagnosis\":\"Particles\"}");
   if (!given.contains("diagnosis") || !given["diagnosis"].is_string()) throw Error("a view names its \"diagnosis\"");
@@ -79,20 +80,20 @@ struct Clients::State {
   std::atomic<bool> calls{false}, ready{false};
   std::uint64_t crowd = 0;  // changes with the number of browsers
   std::uint64_t event_count = 0,
-                handled_count = 0;  // what has happened, and how much of it when it was last attended to
+                handled_count = 0;  // number of events, and its value when they were last handled
   Source* show = nullptr;
-  std::unique_ptr<WebServer> server;  // of rank 0: to the others nobody comes
-  // The same for its own thread: from the moment on at which it is known here, and until that thread has ended.
+  std::unique_ptr<WebServer> server;  // on rank 0; other ranks have no clients
+  // The same for its own thread: valid from the start of the server until its thread has ended.
   std::atomic<WebServer*> speaks{nullptr};
 
-  /// A browser that is ready and has something to see.
+  /// A browser that is ready, with views to send.
   struct Turn {
     std::uint64_t id;
     std::vector<Wanted> views;
     std::int64_t rows;
     std::optional<std::pair<std::string, std::size_t>> selected;
   };
-  /// All of them; each of their views is marked as drawn.
+  /// All browsers with views to send. Their views are marked as drawn.
   std::vector<Turn> turns(std::uint64_t scene, std::uint64_t notice, ShownTable const* table);
 
   void joined(std::uint64_t id) {
@@ -169,7 +170,7 @@ struct Clients::State {
     return found == browsers.end() ? nullptr : &found->second;
   }
 
-  // What concerns this browser alone; nothing else is touched if the request is wrong.
+  // Handles requests that concern only this browser. A wrong request changes nothing.
   bool of_browser(std::uint64_t id, json const& request) {
     std::string const what = request["do"];
     if (what == "views") {
@@ -355,12 +356,12 @@ std::vector<Clients::State::Turn> Clients::State::turns(std::uint64_t scene, std
 
 namespace {
 
-/// The drawings of one update; browsers that look at the same share them.
+/// The drawings of one update, shared by browsers with equal views.
 class Drawings {
  public:
   explicit Drawings(Source& show) : show_(show) {}
 
-  /// What a browser is told of a view: null if there is nothing.
+  /// The message about a view; null if there is nothing new.
   json of(Wanted const& view, BinaryMessage& message) {
     auto [found, fresh] = drawn_.try_emplace(view.key);
     if (fresh) found->second = draw(view);
@@ -370,7 +371,7 @@ class Drawings {
   }
 
  private:
-  using Drawn = std::pair<std::shared_ptr<Canvas const>, std::string>;  // or why it can't be
+  using Drawn = std::pair<std::shared_ptr<Canvas const>, std::string>;  // or the reason for a failure
 
   Drawn draw(Wanted const& view) const try { return {show_.draw(view.view), ""}; } catch (json::exception const&) {
     return {nullptr, "a field of the view is of the wrong kind"};

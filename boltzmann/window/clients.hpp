@@ -1,6 +1,6 @@
-// Clients: the browsers that look at a window. What each of them shows, what they have said, and who is ready for the
-// next update; a browser gets one only when it has asked, so that a slow one delays nobody and one that never reads
-// costs nothing.
+// Clients: the browsers connected to a window. Manages their views, their requests, and which of them are ready for the
+// next update. A browser receives an update only on request, so that a slow one delays no other and one that never
+// reads costs nothing.
 #pragma once
 
 #include <boltzmann/window/source.hpp>
@@ -18,8 +18,8 @@ namespace boltzmann {
 
 class Clients {
  public:
-  /// Listens at once; in a team of ranks, rank 0 does. `file` gives further files by path; it is called on another
-  /// thread. Errors as of WebServer.
+  /// Starts to listen immediately; in a team of ranks, on rank 0. `file` returns further files by path; it is called on
+  /// another thread. Throws Error as WebServer does.
   explicit Clients(std::uint16_t port = 0, std::function<std::optional<WebFile>(std::string_view path)> file = {},
                    std::string token = "");
   ~Clients();
@@ -29,27 +29,28 @@ class Clients {
   std::string address() const;
   std::uint16_t port() const;
 
-  /// What is shown from now on; every browser is told.
+  /// Sets the source to show, and notifies every browser.
   void open(Source& show);
-  /// Nothing is, for now.
+  /// Removes the source.
   void close();
-  /// The last word to all.
+  /// Sends a last message to all.
   void bye(std::string const& message);
 
-  /// Whether a browser has said something that wants an answer, or has come. One load: may be asked after every step.
+  /// True if a browser has sent a request that needs an answer, or has connected. A single load: may be called after
+  /// every step.
   bool calls() const { return calls_.load(std::memory_order_relaxed); }
-  /// Whether one is ready for an update. One load.
+  /// True if a browser is ready for an update. A single load.
   bool ready() const { return ready_.load(std::memory_order_relaxed); }
-  /// How many have their socket open; and whether one of them waits for an update, or has asked for one within the last
-  /// ten seconds.
+  /// The number of open sockets; and whether a browser waits for an update, or has requested one within the last ten
+  /// seconds.
   int viewers() const;
   bool watched() const;
 
-  /// Answers what has been said. Returns whether there was anything.
+  /// Answers pending requests. Returns true if there were any.
   bool handle_requests();
-  /// Sends what is new to all that are ready. Returns whether anything was sent.
+  /// Sends updates to all browsers that are ready. Returns true if any was sent.
   bool send_updates();
-  /// Waits until something has happened since the last handle_requests(), but not longer than this.
+  /// Waits for an event since the last handle_requests(), at most for this time.
   void wait(double seconds);
 
  private:

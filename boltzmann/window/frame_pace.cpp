@@ -1,4 +1,4 @@
-// The clock of frames, and what drawing may cost.
+// Timing of frames, and the time that drawing may use.
 #include <boltzmann/window/frame_pace.hpp>
 
 #include <algorithm>
@@ -8,8 +8,8 @@
 namespace boltzmann {
 namespace {
 
-constexpr double frames_per_second = 61;  // so that 60 come, whenever steps end
-constexpr double share_of_time = 0.035;   // that drawing may take from a run at full speed
+constexpr double frames_per_second = 61;  // slightly above 60, because steps end at arbitrary times
+constexpr double share_of_time = 0.035;   // fraction of the time of a run at full speed that drawing may use
 
 Clock::duration period() { return clock_time(1 / frames_per_second); }
 
@@ -67,12 +67,12 @@ void FramePace::draw(bool hurried, std::function<bool()> const& turned) {
   if (paced(hurried))
     keep_pace(turned);
   else if (clients_.send_updates())
-    // Steps don't end when a frame is due: what one comes late, the next one comes early.
+    // Steps don't end when a frame is due. If a frame is late, the next one is scheduled earlier.
     next_frame_ = std::max({afford(), next_frame_ + period(), begun_frame_ + period() / 2});
 }
 
-/// The pace that was asked for, whether or not a browser keeps up with it. Where steps alone take longer than that,
-/// drawing is held to its share of the time.
+/// Keeps the requested pace, even if browsers do not follow. If steps alone take longer, drawing is limited to its
+/// share of the time.
 void FramePace::keep_pace(std::function<bool()> const& turned) {
   bool const late = begun_frame_ > next_frame_ + period();
   if (!late || begun_frame_ >= next_affordable_)
@@ -87,7 +87,7 @@ void FramePace::keep_pace(std::function<bool()> const& turned) {
   next_frame_ = std::max(next_frame_, Clock::now() - period()) + period();
 }
 
-/// When the next drawing fits into its share of the time, after one that has just been done.
+/// The time at which the next drawing fits into its share, after one that has just been done.
 Clock::time_point FramePace::afford() {
   auto const now = Clock::now();
   double const cost = seconds_between(begun_frame_, now) * (1 / share_of_time - 1);

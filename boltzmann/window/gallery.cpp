@@ -1,4 +1,4 @@
-// The gallery's answers.
+// The replies of the gallery.
 #include <boltzmann/files/text_file.hpp>
 #include <boltzmann/scenario/document.hpp>
 #include <boltzmann/window/gallery.hpp>
@@ -41,7 +41,7 @@ bool is_shipped(std::vector<std::string> const& shipped, std::string const& name
 
 std::string shipped_path(std::string const& name) { return (fs::path(scenario_folder()) / (name + ".toml")).string(); }
 
-/// All files that may be scenarios; whether an own one is, is not known yet.
+/// All files that may be scenarios. User files are not yet validated.
 std::vector<Choice> choices(std::string const& folder) {
   auto const shipped = shipped_scenarios();
   std::vector<Choice> all;
@@ -56,7 +56,7 @@ std::vector<Choice> choices(std::string const& folder) {
         ignored)
       continue;
     std::string const stem = path.stem().string();
-    if (not_utf8(stem)) continue;  // can't be told in JSON
+    if (not_utf8(stem)) continue;  // JSON can't represent it
     own.push_back({is_shipped(shipped, stem) ? stem + ".toml" : stem, path.string(), true});
   }
   std::sort(own.begin(), own.end(), [](Choice const& a, Choice const& b) { return a.name < b.name; });
@@ -74,7 +74,7 @@ Choice choice(std::string const& name, std::string const& folder) {
   throw Error(fmt::format("there is no scenario '{}'{}", name, did_you_mean(name, names)));
 }
 
-/// Paths and values; names come last, so that paths go by the old ones.
+/// Paths and values. Names come last, so that paths use the old names.
 ScenarioValues values_of(json const& set) {
   if (set.is_null()) return {};
   if (!set.is_object()) throw Error("'set' must be an object of paths and values");
@@ -105,14 +105,14 @@ Overrides overrides_of(ScenarioValues const& values) {
   return overrides;
 }
 
-/// A line without the folder of the scenario's file, which is the server's: "copper.toml:25:1: ...".
+/// Removes the folder of the scenario's file, which is a path on the server, from a line: "copper.toml:25:1: ...".
 std::string without_folder(std::string const& line, std::string const& path) {
   auto const slash = path.rfind('/');
   if (path.empty() || slash == std::string::npos || !line.starts_with(path)) return line;
   return line.substr(slash + 1);
 }
 
-/// One line of a ScenarioErrors: what is set, or left out and needed, where it is wrong; or null.
+/// One line of a ScenarioErrors. The path is that of the value that is set, or missing, where the error is; or null.
 json error_of(std::string const& told, ScenarioErrors const& errors, ScenarioValues const& values,
               std::string const& file) {
   std::string const line = without_folder(told, file);
@@ -160,20 +160,20 @@ json json_of(std::vector<ScenarioParameter> const& parameters) {
   return list;
 }
 
-/// Numbers that are none become null.
+/// Numbers that are not finite become null.
 json json_of(std::vector<double> const& numbers, double factor) {
   json list = json::array();
   for (double const number : numbers) list.push_back(limit(number * factor));
   return list;
 }
 
-/// What typed laws say, for small plots: one curve for each text.
+/// The curves of typed laws, for small plots: one per text.
 json curves_of(ScenarioSimulation const& scenario) {
   constexpr std::size_t points = 160;
   json list = json::array();
   std::string last;
   for (auto const& typed : scenario.typed_laws) {
-    if (std::exchange(last, typed.path) == typed.path) continue;  // among several
+    if (std::exchange(last, typed.path) == typed.path) continue;  // one of several
     auto const curve = curve_of(typed, points);
     if (curve.distance.empty()) continue;
     auto const length = scenario.units.display(dimensions::length), energy = scenario.units.display(dimensions::energy);
@@ -200,7 +200,7 @@ json refusal(ScenarioErrors const& errors, ScenarioValues const& values, std::st
   return refused;
 }
 
-/// The answer of function(file), or why there is none. It sets `file` to the path of the scenario.
+/// The reply of function(file), or the reason for a failure. The function sets `file` to the path of the scenario.
 template <class Function>
 json answer(ScenarioValues const& values, Function const& function) {
   std::string file;
@@ -213,7 +213,7 @@ json answer(ScenarioValues const& values, Function const& function) {
   }
 }
 
-/// A name of a file, nothing that leads elsewhere.
+/// True if the name is that of a file, without a path to another folder.
 bool is_plain_name(std::string_view name) {
   return !name.empty() && name.size() <= 100 && name.front() != '.' && name.front() != '-' &&
          name.find("..") == std::string_view::npos && std::all_of(name.begin(), name.end(), [](unsigned char c) {
@@ -221,7 +221,7 @@ bool is_plain_name(std::string_view name) {
          });
 }
 
-/// A folder below the one in which the window was opened: a page leads nowhere else.
+/// True if the path is below the folder in which the window was opened; a page can't access others.
 bool is_plain_folder(std::string_view path) {
   if (path.size() > 400) return false;
   while (true) {
@@ -232,7 +232,8 @@ bool is_plain_folder(std::string_view path) {
   }
 }
 
-/// Why results can't go into `out` below the folder; empty if they can. Links are followed if they stay below it.
+/// Why results can't be written into `out` below the folder; empty if they can. Links are followed if they stay below
+/// it.
 std::string wrong_place(fs::path const& folder, std::string const& out) {
   std::error_code failure;
   fs::path const root = fs::canonical(folder, failure);
@@ -255,7 +256,7 @@ json picture_of(std::string const& name) {
   return "/gallery/" + name + ".png";
 }
 
-/// Writes a file whole or not at all, after it has been looked at.
+/// Writes a file completely or not at all, after `check` has accepted it.
 template <class Check>
 void write_checked(std::string const& path, std::string const& text, bool replace, Check const& check) {
   std::string const part = fmt::format("{}.{}.part", path, getpid());
@@ -268,7 +269,7 @@ void write_checked(std::string const& path, std::string const& text, bool replac
   } const remove{part};
   TextFile(part, TextFile::Mode::replace).write(text);
   check(part);
-  // A link fails if there is a file of that name, even if it has come since we looked.
+  // Creating a link fails if a file of that name exists, even if it was created after the check.
   int const failed = replace ? std::rename(part.c_str(), path.c_str()) : link(part.c_str(), path.c_str());
   if (failed == 0) return;
   if (errno == EEXIST) throw Error(fmt::format("there is a file '{}' already", path));
@@ -296,7 +297,7 @@ json Gallery::scenarios() const {
     try {
       outline = outline_scenario(read_scenario(one.path).text, one.path);
     } catch (std::exception const&) {
-      continue;  // another program's file, or not to be read
+      continue;  // a file of another program, or unreadable
     }
     list.push_back({{"name", one.name},
                     {"title", outline.title.empty() ? one.name : outline.title},
@@ -382,7 +383,7 @@ json Gallery::save(std::string const& name, json const& set, std::string const& 
     if (!replace && fs::exists(fs::symlink_status(path, failure)))
       throw Error(fmt::format("there is a file '{}' already", path));
     std::string const text = with_values(read_scenario(choice(name, folder_).path).text, values_of(set));
-    // Once more where it will be: it may name other files.
+    // Check again at its destination, because it may name other files.
     write_checked(path, text, replace, [&](std::string const& part) {
       try {
         load_scenario(part);

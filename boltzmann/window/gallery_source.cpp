@@ -1,4 +1,4 @@
-// The requests of the start page, handed to the gallery.
+// Forwards the requests of the start page to the gallery.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/window/gallery_source.hpp>
 
@@ -15,7 +15,7 @@ json changes(json const& request) {
   if (!request.contains("set") || request["set"].is_null()) return json::object();
   if (!request["set"].is_object()) throw Error("\"set\" is an object, {\"run.steps\": \"100\"}");
   for (auto const& value : request["set"])
-    if (!value.is_string() && !value.is_null())  // null: the key is left out
+    if (!value.is_string() && !value.is_null())  // null: remove the key
       throw Error("what is set is written as in a scenario file, as a text");
   return request["set"];
 }

@@ -1,4 +1,4 @@
-// Gallery show: the start page, where a scenario is chosen, changed, saved and run.
+// Gallery source: the start page, on which a scenario is selected, modified, saved and run.
 #pragma once
 
 #include <boltzmann/window/choice_source.hpp>
@@ -11,16 +11,16 @@ namespace boltzmann {
 
 class GallerySource final : public ChoiceSource {
  public:
-  /// `message` is said to those who come: how the last run ended.
+  /// `message` is shown on the page: how the last run ended.
   GallerySource(Gallery const& gallery, Clients& clients, std::string message = "")
       : ChoiceSource(clients, "Boltzmann", std::move(message)), gallery_(gallery) {}
 
   struct Choice {
     std::string name;    ///< of the scenario
-    nlohmann::json set;  ///< what is changed of it
+    nlohmann::json set;  ///< the modified values
     std::string out;     ///< the folder of the results, or empty
   };
-  /// Until somebody runs a scenario; nothing: somebody has quit.
+  /// Waits until a client runs a scenario; nothing if a client quits.
   std::optional<Choice> run() {
     wait();
     return choice_;

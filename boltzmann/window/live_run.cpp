@@ -1,5 +1,5 @@
-// The run's own thread does everything here: it steps, and between two steps it looks whether anybody wants something.
-// In a team of ranks rank 0 looks, and says in a vote what all do next; to look it lets the run pause.
+// The run's own thread does all work here: between two steps it checks for requests. In a team of ranks, rank 0 checks,
+// and broadcasts the next action in a vote. To check, it pauses the run.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/quantity_text.hpp>
 #include <boltzmann/core/team.hpp>
@@ -25,14 +25,14 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double usual_frames = 610;  // of a run, unless told otherwise: some ten seconds
+constexpr double usual_frames = 610;  // default number of frames of a run: about ten seconds
 
 enum class Command { pause, play, rewind };
 
-/// What the clients want, until they want something else.
+/// The state that clients have requested.
 struct Orders {
   Command command = Command::pause;
-  std::optional<std::int64_t> goal;  // where STEP goes
+  std::optional<std::int64_t> goal;  // the target step of STEP
   std::optional<double> step_size;
   bool quit = false;
 
@@ -44,24 +44,24 @@ struct Orders {
   }
 };
 
-/// What the simulation does next.
+/// The next action of the simulation.
 struct Deed {
   enum What : std::int64_t { wait, play, rewind, step_size, draw, picture, end } what;
   std::int64_t steps = 0;
   double size = 0;           // of a step
-  std::string request = {};  // what is drawn
+  std::string request = {};  // the requested drawing
 };
 
-/// From where to where the run goes, and how many steps were asked for.
+/// The range of the run, and the requested number of steps.
 struct Plan {
   std::int64_t first = 0, target = 0, steps = 0;
 };
 
-/// What clients are told beside the picture; the counts grow when there is something new.
+/// Notifications for clients besides pictures. The counts increase with each new one.
 struct Told {
   std::uint64_t scene = 1, notice = 1;
   std::string message;
-  json missed;  // by how much REWD missed the start
+  json missed;  // the distance from the start after REWD
 
   void say(std::string text) {
     message = std::move(text);
@@ -86,7 +86,7 @@ struct LiveRun::State {
   Simulation& simulation;
   LiveOptions options;
 
-  Orders wanted, doing;  // doing: what the present run() of the simulation does
+  Orders wanted, doing;  // doing: those that the current run() of the simulation executes
   Plan plan;
   Told told;
   FramePace pace;
@@ -97,18 +97,18 @@ struct LiveRun::State {
   Team& team = boltzmann::team();
   bool inside = false;       // within run() or rewind() of the simulation
   bool begun = false;        // one of them has been called
-  bool moving = false;       // and nobody has waited since
+  bool moving = false;       // true until the next wait
   bool resumes = false;      // a frame has been drawn, and no step done since
-  bool told_of_end = false;  // that a condition of the recording has ended the run
+  bool told_of_end = false;  // clients were notified that a condition of the recording has ended the run
 
-  // STEP goes as fast as it can.
+  // STEP runs unthrottled.
   bool hurried() const { return wanted.goal.has_value(); }
   bool wants_start(std::int64_t step) const { return !start.kept() && step == plan.first; }
 
   // Called after every step, often more than once.
   bool look(std::int64_t step) { return inside && pace.due(step, wants_start(step), hurried()); }
 
-  // A finished step that somebody looks at.
+  // Shows a finished step to clients.
   void observe() {
     if (wants_start(simulation.step())) start.keep(simulation);
     ++told.scene;
@@ -120,7 +120,7 @@ struct LiveRun::State {
 
   bool turned() const { return wanted != doing; }
 
-  // REWD has come back to where the run began.
+  // Compares the state after REWD with the start of the run.
   void compare_with_start() {
     auto const most = start.missed(simulation);
     if (!most) return;
@@ -140,9 +140,9 @@ struct LiveRun::State {
     wanted.command = what;
   }
 
-  // Runs the simulation until something else is wanted, or the end of this is reached.
+  // Runs the simulation until another action is requested, or the goal is reached.
   void go(Deed const& deed) {
-    if (!begun && !team.alone()) {  // all look at the start, as rank 0 does
+    if (!begun && !team.alone()) {  // all ranks observe the start, as rank 0 does
       begun = true;
       simulation.run(0);
       if (team.first()) start.keep(simulation);
@@ -182,7 +182,7 @@ struct LiveRun::State {
     resumes = true;
   }
 
-  // After a step of a run that has to pause before anybody looks.
+  // Called after a step of a run that must pause before an observation.
   void watch() {
     if (!inside) return;
     if (std::exchange(resumes, false)) pace.resumed(hurried());
@@ -194,7 +194,7 @@ struct LiveRun::State {
     return simulation.stopped() || wanted.quit;
   }
 
-  /// What is wanted now, as far as it goes.
+  /// The next action according to the current requests.
   Deed next() {
     if (over()) return {Deed::end};
     clients.handle_requests();
@@ -229,7 +229,7 @@ struct LiveRun::State {
             team.alone() ? steps : std::min(steps, pace.steps_to_frame(hurried()))};
   }
 
-  /// What rank 0 does next, all do.
+  /// All ranks execute the next action of rank 0.
   Deed together() {
     if (team.alone()) return next();
     Deed deed{Deed::wait};
@@ -242,22 +242,22 @@ struct LiveRun::State {
     return tell(std::move(deed), failed);
   }
 
-  /// What rank 0 says, on all.
+  /// Broadcasts the action of rank 0.
   Deed tell(Deed deed, std::exception_ptr const& failed = nullptr) {
     Team::Ballot ballot{Team::Occasion::between_runs, simulation.stopped()};
     ballot.most.fill(std::numeric_limits<std::int64_t>::min());
     if (team.first()) ballot.most = {deed.what, deed.steps, std::bit_cast<std::int64_t>(deed.size)};
     auto const outcome = team.vote(ballot, failed);
     Team::check(outcome);
-    if (outcome.stop) simulation.stop();  // a signal may have reached one rank alone
+    if (outcome.stop) simulation.stop();  // only one rank may have received a signal
     deed = {static_cast<Deed::What>(outcome.most[0]), outcome.most[1], std::bit_cast<double>(outcome.most[2]),
             std::move(deed.request)};
     if (deed.what == Deed::draw || deed.what == Deed::picture) team.broadcast(deed.request);
     return deed;
   }
 
-  /// Before rank 0 draws between two steps: the others draw the same, for nobody, since a drawing may measure, after which
-  /// a rank may know more of the neighbours of particles than before.
+  /// Called before rank 0 draws between two steps. The other ranks make the same drawing and discard it, because a
+  /// drawing may measure, and measuring may exchange rows of neighbours.
   void draw_with_others(Deed::What what, json const& request) {
     if (team.alone()) return;
     tell({what, 0, 0, request.dump(-1, ' ', false, json::error_handler_t::replace)});
@@ -271,7 +271,7 @@ struct LiveRun::State {
       else
         views.picture(request, simulation.step(), simulation.time());
     } catch (std::exception const&) {
-      // Rank 0 tells whoever wanted it.
+      // Rank 0 reports the error to the client that requested the action.
     }
   }
 
@@ -376,7 +376,7 @@ void LiveRun::run(std::uint64_t steps) {
   state.wanted.quit = true;
   ++state.told.notice;
   state.clients.send_updates();
-  // Whoever quits before the first step finds the start of the run in its folder, ready to be resumed.
+  // After QUIT before the first step, the folder contains the start of the run, ready to be resumed.
   if (state.recording && !state.begun && !state.failure) state.simulation.run(0);
   if (state.failure) std::rethrow_exception(state.failure);
 }
@@ -449,7 +449,7 @@ json LiveRun::perform(json const& request) {
     state.want(Command::rewind);
   } else if (what == "step") {
     state.want(Command::pause);
-    // Pressed faster than steps are done, they add up; the other way they begin anew.
+    // Repeated requests faster than steps are done accumulate; a change of direction resets them.
     std::int64_t const now = state.simulation.step();
     auto& goal = state.wanted.goal;
     bool const again = goal && (*goal > now) == (count > 0);

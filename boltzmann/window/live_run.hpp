@@ -1,4 +1,4 @@
-// Live run: a simulation that goes on while it is looked at; PLAY, STEP, REWD, STOP and QUIT.
+// Live run: a simulation that is observed while it runs; PLAY, STEP, REWD, STOP and QUIT.
 #pragma once
 
 #include <boltzmann/recording/progress.hpp>
@@ -14,10 +14,11 @@ namespace boltzmann {
 class Recording;
 
 struct LiveOptions {
-  bool play = false;                  ///< begins at once, at full speed, and ends with its last step when nobody looks
-  std::int64_t steps_per_frame = -1;  ///< 0: full speed; -1: so that all steps take some ten seconds
+  bool play = false;                  ///< starts immediately, unthrottled, and ends with its last step if no browser is
+                                      ///< connected
+  std::int64_t steps_per_frame = -1;  ///< 0: unthrottled; -1: such that all steps take about ten seconds
   std::string name = {}, description = {};
-  /// Called ten times a second while no steps are done; the run ends when it returns false.
+  /// Called ten times a second while no steps are done. The run ends when it returns false.
   std::function<bool()> between_steps = {};
 };
 
@@ -29,7 +30,8 @@ class LiveRun final : public Source {
   LiveRun(LiveRun const&) = delete;
   LiveRun& operator=(LiveRun const&) = delete;
 
-  /// Does what the clients wants, until it quits; `steps` are planned. Rethrows what a step has thrown, then.
+  /// Executes the clients' requests until one of them quits; `steps` are planned. Then rethrows the exception of a
+  /// step.
   void run(std::uint64_t steps);
 
   nlohmann::json hello() const override;
@@ -47,8 +49,8 @@ class LiveRun final : public Source {
   std::shared_ptr<State> state_;
 };
 
-/// A run that clients watch in views, from its beginning to its end, with progress and records as run_with_progress
-/// has them (which see). `recording` may be null. While it goes on, its folder says where the window is.
+/// Runs under control of clients with views, from start to end, with progress and records as in run_with_progress.
+/// `recording` may be null. During the run, its folder contains the address of the window.
 RunReport run_live(Views& views, Clients& clients, Recording* recording, std::uint64_t steps,
                    LiveOptions const& options = {}, bool quiet = false);
 

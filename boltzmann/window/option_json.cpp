@@ -1,4 +1,4 @@
-// One function for each kind of member, both ways.
+// One function per kind of member, in both directions.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/window/option_json.hpp>
 
@@ -95,7 +95,7 @@ class FromJson {
     need(right, what);
     return value_.get<T>();
   }
-  /// In the range of the option, so that it fits its member.
+  /// Limits a number to the range of the option, so that it fits its member.
   double whole() const {
     auto const number = get<double>(value_.is_number(), "a whole number");
     need(std::trunc(number) == number, "a whole number");
@@ -113,7 +113,7 @@ class FromJson {
   json const& value_;
 };
 
-/// From one object to another.
+/// Copies the value from one object to another.
 struct Copy {
   template <class T>
   void operator()(T* to, T* from) const {

@@ -1,4 +1,4 @@
-// The options of a struct in messages from and to a page.
+// Converts the options of a struct to and from messages of a page.
 #pragma once
 
 #include <boltzmann/core/options.hpp>
@@ -10,7 +10,7 @@ namespace boltzmann {
 /// The value of an option; null: automatic.
 nlohmann::json option_json(Option const& option, void* object);
 
-/// Sets it; null: as in `plain`. Throws Error, "'low' is a number", and leaves the object as it was.
+/// Sets the value; null: that of `plain`. Throws Error, "'low' is a number", and leaves the object unchanged.
 void take(Option const& option, nlohmann::json const& value, void* object, void* plain);
 
 }  // namespace boltzmann

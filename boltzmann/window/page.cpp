@@ -1,8 +1,8 @@
-// The page's bytes, put into the object file by the assembler: there is no text of a hundred kilobytes to compile.
+// The assembler includes the page in the object file, because compiling a text of a hundred kilobytes is slow.
 #include <boltzmann/window/page.hpp>
 
-// BOLTZMANN_PAGE: the path of page.html, from CMakeLists.txt, which also gives its digest, so that no cache of compilers
-// takes an older page's object for this one's.
+// BOLTZMANN_PAGE is the path of page.html, from CMakeLists.txt. The digest, also from there, prevents a compiler cache
+// from using an object with an older page.
 asm(".pushsection .rodata\n"
     ".global boltzmann_window_page\n"
     ".hidden boltzmann_window_page\n"

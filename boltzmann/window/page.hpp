@@ -5,8 +5,8 @@
 
 namespace boltzmann {
 
-/// window/page.html as it was when the library was built: script and style stand in it, and nothing else is fetched. It
-/// is built from window/web by Node (window/web/README.md) and kept in the repository.
+/// The contents of window/page.html at build time. It includes script and style and loads nothing else. Node builds it
+/// from window/web (window/web/README.md), and it is kept in the repository.
 std::string_view page_html();
 
 }  // namespace boltzmann

@@ -1,4 +1,4 @@
-// A frame is loaded into the ensembles; then everything is drawn as if the run had just come there.
+// Loads a frame into the ensembles, and then draws as if a run had just reached it.
 #include <boltzmann/core/clock.hpp>
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/files/csv.hpp>
@@ -19,7 +19,7 @@ namespace {
 using nlohmann::json;
 
 constexpr double fastest = 240;                                 // frames per second
-constexpr auto steps_between_clocks = std::chrono::seconds(1);  // at the file, which may grow
+constexpr auto steps_between_clocks = std::chrono::seconds(1);  // of the file, which may grow
 
 }  // namespace
 
@@ -28,7 +28,7 @@ Replay::Replay(Views& views, std::string name, std::string description)
       name_(std::move(name)),
       description_(std::move(description)),
       path_(views.folder() + "/trajectory.h5") {
-  std::error_code ignored;  // the reader will say what is wrong
+  std::error_code ignored;  // the reader reports errors
   written_ = std::filesystem::last_write_time(path_, ignored);
   take(std::make_unique<TrajectoryReader>(path_));
   if (steps_.empty()) throw Error("'" + path_ + "' has no frames");
@@ -44,7 +44,7 @@ void Replay::read_table() {
   ShownTable fresh;
   fresh.number = table_.number;
   std::size_t const rows = stored.columns.empty() ? 0 : stored.columns[0].size();
-  // Every n-th row, so that there are never more than a page can draw.
+  // Every n-th row, so that the page can draw them all.
   std::size_t const stride = rows / ShownTable::most + 1;
   for (std::size_t r = 0; r < rows; r += stride) {
     std::vector<double> row;
@@ -67,12 +67,12 @@ void Replay::go_to(std::int64_t frame) {
   };
   try {
     fill(wanted);
-  } catch (Error const&) {  // damaged, or still being written: then another look may find it whole
+  } catch (Error const&) {  // damaged, or incomplete because it is being written; retry later
     written_ = {};
     try {
       fill(frame_);
     } catch (Error const&) {
-      // the line about the frame that was wanted says it
+      // the message about the requested frame contains it
     }
     throw;
   }
@@ -81,8 +81,8 @@ void Replay::go_to(std::int64_t frame) {
   ++scene_;
 }
 
-// A run that goes on in another program adds frames. HDF5 would take a file that is open already for the same, as it
-// was: so it is closed first.
+// A run in another program may add frames. HDF5 would return the old contents of a file that is already open, so it is
+// closed first.
 void Replay::look_for_more() {
   std::error_code error;
   auto const written = std::filesystem::last_write_time(path_, error);
@@ -101,7 +101,7 @@ void Replay::look_for_more() {
     read_table();
     ++notice_;
   } catch (Error const&) {
-    // in the middle of a write; the next look will do
+    // the file is being written; retry later
   }
 }
 

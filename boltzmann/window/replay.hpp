@@ -1,4 +1,4 @@
-// Replay: a stored run, frame by frame, forwards and backwards; also one that is still being written.
+// Replay: shows a stored run frame by frame, forwards and backwards, even while it is still being written.
 #pragma once
 
 #include <boltzmann/files/trajectory.hpp>
@@ -18,12 +18,12 @@ class Clients;
 class Replay final : public Source {
  public:
   /// Shows the frames of folder/trajectory.h5 in the ensembles of the views, and the table of folder/diagnoses.csv.
-  /// Error if there are none.
+  /// Throws Error if there are no frames.
   Replay(Views& views, std::string name, std::string description);
   Replay(Replay const&) = delete;
   Replay& operator=(Replay const&) = delete;
 
-  /// Does what the clients want until one of them quits, or a signal comes (then it returns true).
+  /// Executes the clients' requests until one of them quits, or a signal arrives (then it returns true).
   bool run(Clients& clients);
 
   nlohmann::json hello() const override;
@@ -50,10 +50,10 @@ class Replay final : public Source {
   std::unique_ptr<TrajectoryReader> reader_;  // null while the file can't be read
   std::vector<std::int64_t> steps_;
   std::vector<double> times_;
-  std::filesystem::file_time_type written_{};  // when the file was, before it was opened
+  std::filesystem::file_time_type written_{};  // of the file, before it was opened
   std::int64_t frame_ = 0;
-  std::string message_;  // why it does not go on
-  int direction_ = 0;    // 1: plays, -1: plays backwards
+  std::string message_;  // reason why it does not continue
+  int direction_ = 0;    // 1: forwards, -1: backwards
   double frames_per_second_ = 25;
   bool quit_ = false;
   std::uint64_t scene_ = 1, notice_ = 1;

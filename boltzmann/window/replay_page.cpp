@@ -1,4 +1,4 @@
-// Frames are drawn and encoded as for a browser; then they go into the page as JSON and base64.
+// Draws and encodes frames as for a browser, and embeds them in the page as JSON and base64.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/window/page.hpp>
 #include <boltzmann/window/replay_page.hpp>
@@ -21,7 +21,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::size_t max_views = 8;          // as of a browser
+constexpr std::size_t max_views = 8;          // as for a browser
 constexpr std::size_t all = ~std::size_t{0};  // particles
 constexpr double table_share = 0.25;          // of the page, at most
 constexpr double most_message = 500;          // bytes
@@ -55,7 +55,7 @@ std::string base64(std::vector<WebPart> const& parts) {
   return text;
 }
 
-/// JSON that may stand in a <script>: no "<" in it.
+/// JSON that is safe in a <script>, without "<".
 std::string script_json(json const& value) {
   std::string const text = value.dump(-1, ' ', false, json::error_handler_t::replace);
   std::string safe;
@@ -80,7 +80,7 @@ std::string replaced(std::string text, std::string_view what, std::string_view b
   return text.replace(at, what.size(), by);
 }
 
-/// The page with the recording in it. A browser runs its one script, by its digest, and fetches nothing.
+/// The page with the embedded recording. A browser accepts only its script, by its digest, and loads nothing else.
 std::string page_with(std::string const& recording, std::string const& title) {
   std::string html(page_html());
   constexpr std::string_view name = "<meta name=\"boltzmann-script\" content=\"";
@@ -97,7 +97,7 @@ std::string page_with(std::string const& recording, std::string const& title) {
   return html.insert(end, "<script type=\"application/json\" id=\"recording\">" + recording + "</script>\n  ");
 }
 
-/// So many of 0..count-1, evenly, the first and the last among them.
+/// A selection of `count` indices, evenly spaced, including the first and the last.
 std::vector<std::size_t> evenly(std::size_t count, std::size_t most) {
   std::vector<std::size_t> chosen;
   std::size_t const n = std::min(count, most);
@@ -105,7 +105,7 @@ std::vector<std::size_t> evenly(std::size_t count, std::size_t most) {
   return chosen;
 }
 
-/// Every n-th row, so that the table has so many bytes at most in base64.
+/// Every n-th row, so that the table has at most this size in base64.
 ShownTable thinned(ShownTable const& table, double most_bytes, std::size_t& stride) {
   double const bytes = static_cast<double>(table.values.size() * sizeof(double)) * 4 / 3;
   stride = std::max<std::size_t>(1, static_cast<std::size_t>(std::ceil(bytes / most_bytes)));
@@ -118,19 +118,20 @@ ShownTable thinned(ShownTable const& table, double most_bytes, std::size_t& stri
   return fewer;
 }
 
-/// A frame as a browser would be sent it.
+/// A frame as sent to a browser.
 struct Encoded {
   std::string text;
-  /// In the list of frames, with quotation marks and comma.
+  /// The size in the list of frames, with quotation marks and comma.
   double bytes() const { return static_cast<double>(text.size() + 3); }
-  std::vector<std::size_t> particles, particle_bytes;  // of each view that has any: how many, and of each
-  std::uint32_t stride = 1;                            // one of so many particles is there
+  // for each view with particles: their number, and bytes per particle
+  std::vector<std::size_t> particles, particle_bytes;
+  std::uint32_t stride = 1;  // one of this number of particles is included
 };
 
-/// What a frame takes in the page.
+/// The size of a frame in the page.
 struct FrameSize {
   double fixed = 0;                                // bytes without its particles
-  std::vector<std::size_t> particles, each_bytes;  // of each view
+  std::vector<std::size_t> particles, each_bytes;  // per view
 
   explicit FrameSize(Encoded const& frame)
       : fixed(frame.bytes()), particles(frame.particles), each_bytes(frame.particle_bytes) {
@@ -140,7 +141,7 @@ struct FrameSize {
   std::size_t most_particles() const {
     return particles.empty() ? 0 : *std::max_element(particles.begin(), particles.end());
   }
-  /// With so many particles in a view at most; those that are left have a number each.
+  /// The size with at most this number of particles per view. Selected particles also have a number each.
   double bytes(std::size_t most) const {
     double sum = fixed;
     for (std::size_t v = 0; v < particles.size(); ++v) {
@@ -149,7 +150,7 @@ struct FrameSize {
     }
     return sum;
   }
-  /// How many particles in a view have room in so many bytes.
+  /// The number of particles per view that fit into this size.
   std::size_t particles_in(double room) const {
     if (bytes(all) <= room) return all;
     std::size_t low = 0, high = most_particles();
@@ -159,11 +160,11 @@ struct FrameSize {
 };
 
 struct Plan {
-  std::size_t frames, most;  // most: particles in a view
+  std::size_t frames, most;  // most: particles per view
 };
 
-/// Fewer particles as long as there are many, then fewer frames; then the same with few of both. Nothing: there is no
-/// room even then.
+/// Reduces the number of particles while there are many, then frames; then both further. Nothing if even that does not
+/// fit.
 std::optional<Plan> plan_for(FrameSize const& size, std::size_t frames, double room) {
   std::size_t const particles = size.most_particles();
   for (auto const& [least_particles, least_frames] :
@@ -219,7 +220,7 @@ class PageWriter {
         if (total > room) break;
       }
       if (total <= room) return finish(frames, row_stride);
-      // Frames are larger than the one that was measured.
+      // Later frames are larger than the measured one.
       double const all_of_them = total * static_cast<double>(chosen.size()) / static_cast<double>(frames.size());
       target *= std::min(0.9, room / all_of_them);
     }
@@ -242,7 +243,7 @@ class PageWriter {
       json const shown = find(name);
       if (!shown.is_null() && shown["drawing"] == "table") continue;
       json const view{{"id", views_.size() + 1}, {"diagnosis", name}};
-      replay_.draw(view);  // its mistakes, before anything is written
+      replay_.draw(view);  // throws its errors before anything is written
       views_.push_back(view);
       kept.push_back(shown);
     }
@@ -278,7 +279,7 @@ class PageWriter {
           result.particle_bytes.push_back((bytes + particles - 1) / particles);
         }
         views.push_back({{"id", view["id"]}, {"canvas", canvas_json(canvas, message)}});
-      } catch (Error const& error) {  // of this frame: no particles for a histogram
+      } catch (Error const& error) {  // of this frame only, for example no particles for a histogram
         views.push_back({{"id", view["id"]}, {"error", error.what()}});
       }
     }
@@ -330,7 +331,7 @@ ReplayPage replay_page(std::string const& folder, ReplayPageOptions const& optio
         stored.replay().draw({{"diagnosis", name}});
         chosen.views.push_back(name);
       } catch (Error const&) {
-        // what needs the history of a run, such as a wave spectrum, can't be had from frames
+        // views that need the history of a run, such as a wave spectrum, are not possible from frames
       }
   return replay_page(stored.replay(), chosen);
 }

@@ -1,4 +1,4 @@
-// A look through folders.
+// Searches folders for runs.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/files/text_file.hpp>
 #include <boltzmann/scenario/stored_run.hpp>
@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 
 constexpr int deepest = 4;
-constexpr std::size_t max_entries = 200'000;  // that are looked at
+constexpr std::size_t max_entries = 200'000;  // to search
 constexpr std::size_t max_runs = 5'000;
 
 /// picture.png, or the first by name; empty if there is none.
@@ -65,7 +65,7 @@ json RunList::runs() {
       one["dimension"] = outline.dimension;
       if (outline.particles) one["particles"] = *outline.particles;
       if (outline.steps) one["steps"] = *outline.steps;
-      json(one).dump();  // names that are no UTF-8 can't be told
+      json(one).dump();  // JSON can't represent names that are not UTF-8
     } catch (std::exception const&) {
       continue;  // of another program, or damaged
     }

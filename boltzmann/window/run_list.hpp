@@ -1,4 +1,4 @@
-// Run list: the runs whose results stand below a folder, and the start page on which one of them is chosen.
+// Run list: the runs with results below a folder, and the start page to select one of them.
 #pragma once
 
 #include <boltzmann/window/choice_source.hpp>
@@ -12,20 +12,20 @@
 
 namespace boltzmann {
 
-/// Folders with runs, of scenarios or programs, four levels deep at most, by name; no link is followed. They are looked
-/// for when they are asked for.
+/// Folders with runs, of scenarios or programs, at most four levels deep, by name. Links are not followed. Each request
+/// repeats the search.
 class RunList {
  public:
   explicit RunList(std::string folder) : folder_(std::move(folder)) {}
 
-  /// Whether there is one.
+  /// True if there is at least one.
   bool any() const;
-  /// {"ok": true, "scenarios": [...]} as of Gallery::scenarios(), the names of folders below this one; pictures are
-  /// those that the run has drawn.
+  /// {"ok": true, "scenarios": [...]} as in Gallery::scenarios(), with the names of folders below this one; pictures
+  /// are those that the run has drawn.
   nlohmann::json runs();
-  /// The folder of that name. Error if there is no such run, or it has no trajectory to show.
+  /// The folder of that name. Throws Error if there is no such run, or it has no trajectory.
   std::string find(std::string const& name) const;
-  /// "/run/3.png": nothing if there is no such picture. May be called from any thread.
+  /// The picture at "/run/3.png"; nothing if it does not exist. May be called from any thread.
   std::optional<WebFile> picture(std::string_view path) const;
 
  private:
@@ -42,7 +42,7 @@ class RunListSource final : public ChoiceSource {
       : ChoiceSource(clients, "Runs in " + folder, std::move(message)), list_(list) {}
 
   nlohmann::json hello() const override;
-  /// The folder of the run that somebody wants to see; nothing: somebody has quit.
+  /// Waits until a client selects a run, and returns its folder; nothing if a client quits.
   std::optional<std::string> run() {
     wait();
     return choice_;

@@ -1,4 +1,4 @@
-// Copies and comparisons of rows.
+// Copies and compares rows.
 #include <boltzmann/core/vector.hpp>
 #include <boltzmann/window/run_start.hpp>
 
@@ -8,7 +8,7 @@
 namespace boltzmann {
 namespace {
 
-constexpr std::size_t too_many = 4 << 20;  // particles whose start is not kept
+constexpr std::size_t too_many = 4 << 20;  // number of particles above which the start is not stored
 
 }  // namespace
 

@@ -1,4 +1,4 @@
-// RunStart: where a run began, and by how much it is missed when the run has gone all the way back.
+// RunStart: the initial state of a run, and the distance from it after the run has been reversed to its start.
 #pragma once
 
 #include <boltzmann/files/checkpoint.hpp>
@@ -12,12 +12,12 @@ namespace boltzmann {
 
 class RunStart {
  public:
-  /// Copies all particles, unless the run can't go back or they are more than four million.
+  /// Copies all particles, unless the run can't be reversed or there are more than four million.
   void keep(Simulation const& simulation);
   bool kept() const { return kept_; }
 
-  /// The furthest that a particle is from where it was, and by how much its velocity differs at most. None if there is
-  /// nothing to compare with.
+  /// The largest distance of a particle from its initial position, and the largest difference of a velocity. None if
+  /// there is no copy.
   struct Missed {
     double position = 0, velocity = 0;
   };
@@ -28,7 +28,7 @@ class RunStart {
   bool kept_ = false;
 };
 
-/// Why a simulation can't go back, in one line; empty if it can.
+/// Why a simulation can't be reversed, in one line; empty if it can.
 std::string no_rewind(Simulation const& simulation);
 
 }  // namespace boltzmann

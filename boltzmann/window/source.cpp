@@ -1,4 +1,4 @@
-// Tables that never grow beyond what a page can draw.
+// Limits tables to the number of rows that a page can draw.
 #include <boltzmann/window/source.hpp>
 
 namespace boltzmann {

@@ -1,4 +1,4 @@
-// From the files of a folder to a replay of them.
+// Creates a replay from the files of a folder.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/recording/run_file.hpp>
 #include <boltzmann/scenario/scenario_recording.hpp>

@@ -1,4 +1,4 @@
-// From the names that a page knows to drawings of the simulation.
+// Maps names known to a page to drawings of the simulation.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/quantity_text.hpp>
 #include <boltzmann/core/threads.hpp>
@@ -50,12 +50,12 @@ std::string first_upper(std::string text) {
   return text;
 }
 
-// What a view changes of the picture of its diagnosis: what is left out is the diagnosis' own, null is automatic.
+// The picture of a diagnosis, changed by a view. Missing options are those of the diagnosis; null is automatic.
 Picture with(Picture picture, json const& view) {
   std::string const drawing = text_or(view, "drawing", picture.drawing);
   if (drawing != picture.drawing) picture = Picture{.drawing = drawing};
   std::string const colour = text_or(view, "colour", picture.colour);
-  if (colour != picture.colour)  // the ends were those of another quantity
+  if (colour != picture.colour)  // the given ends belong to another quantity
     picture.low = picture.high = std::numeric_limits<double>::quiet_NaN();
   Picture plain;
   for (auto const& option : drawing_named(drawing).options)
@@ -131,7 +131,7 @@ void Views::add_usual() {
   add("Profile", {.drawing = "profile", .x = "position.x", .y = "density"});
   add("Density", {.drawing = "map", .y = "density", .cells = 120});
   add("Mesh", {.drawing = "mesh", .y = "potential"});
-  // What shows the state comes before what needs a history.
+  // Views of the state precede those that need a history.
   std::stable_partition(entries_.begin(), entries_.end(), [](Entry const& entry) {
     return !entry.table && entry.picture.drawing != "wave-spectrum" && entry.picture.drawing != "curves" &&
            !(entry.picture.drawing == "spectrum" && entry.picture.x == "time");
@@ -256,9 +256,9 @@ Canvas Views::canvas(Entry const& entry, json const& view, std::int64_t step, do
 std::shared_ptr<Canvas const> Views::draw(json const& view, std::int64_t step, double time) const {
   Entry const& what = entry(text_or(view, "diagnosis", ""));
   if (what.table) return nullptr;
-  // Its arrays come back when the last browser has been sent them.
+  // The deleter recycles its arrays when they have been sent to the last browser.
   return {new Canvas(canvas(what, view, step, time)), [memory = memory_](Canvas const* shown) {
-            auto* const canvas = const_cast<Canvas*>(shown);  // made as one that may be changed, one line above
+            auto* const canvas = const_cast<Canvas*>(shown);  // it was created non-const one line above
             memory->keep(canvas->take_clouds());
             delete canvas;
           }};
@@ -305,7 +305,7 @@ json Views::particle(std::string const& name, std::size_t number) const {
     double speed2 = 0;
     Field const* velocity = ensemble->find_field("velocity");
     for (auto const& meaning : quantities(*ensemble)) {
-      // A name is a field, with a component behind a dot where it has several.
+      // A name is a field, with a component after a dot if it has several.
       std::size_t const dot = meaning.name.rfind('.');
       Field const* field = ensemble->find_field(meaning.name.substr(0, dot));
       if (!field) continue;

@@ -1,5 +1,5 @@
-// Views: all that a window can show of a simulation, by name: pictures of it and the user's own drawings. The live run
-// and the stored one stand on it.
+// Views: everything that a window can show of a simulation, by name: pictures and the user's own drawings. Used by the
+// live run and the stored one.
 #pragma once
 
 #include <boltzmann/pictures/picture.hpp>
@@ -19,32 +19,32 @@ class Recording;
 
 class Views {
  public:
-  /// The simulation and what else it reads must outlive the views. `folder` is where diagnoses.csv and trajectory.h5
-  /// are, or empty.
+  /// The simulation and the other arguments must outlive the views. `folder` contains diagnoses.csv and trajectory.h5,
+  /// or is empty.
   Views(Simulation& simulation, UnitSystem const& units, std::string title, std::string folder);
 
-  /// A drawing of the user's own, which it replaces if there is one of that name.
+  /// Adds a drawing of the user, which replaces one of the same name.
   void install(std::string name, std::function<void(Canvas&)> draw);
-  /// A picture under a name. Nothing happens if one of the name is there; if it can't be drawn of this simulation it is
-  /// left out, or Error says why.
+  /// Adds a picture under a name, unless the name exists. If it can't be drawn of this simulation, it is omitted, or
+  /// Error gives the reason.
   enum class Unfit { left_out, throws };
   void add(std::string name, Picture picture, Unfit unfit = Unfit::left_out);
-  /// What a recording measures and draws: its table, its diagnoses, and its pictures under the names of their files.
+  /// Adds the views of a recording: its table, its diagnoses, and its pictures under the names of their files.
   void take(Recording const& recording);
-  /// What every simulation can show as far as it can: particles, phase space, a histogram, a spectrum, a profile, a
+  /// Adds the usual views that the simulation supports: particles, phase space, a histogram, a spectrum, a profile, a
   /// map, fields on a mesh.
   void add_usual();
   void title(std::string title) { title_ = std::move(title); }
-  /// The colours of ensembles that have none of their own.
+  /// The colours of ensembles without one of their own.
   void palette(std::vector<Colour> colours) { palette_ = std::move(colours); }
-  /// The header of the table of measured quantities, "total energy (eV)": there is a diagnosis "Measured" then.
+  /// The header of the table of measured quantities, "total energy (eV)". It adds a diagnosis "Measured".
   void columns(std::vector<std::string> header);
-  /// Diagnoses of the run, for pictures of what they have seen.
+  /// Diagnoses of the run, for pictures of their accumulated data.
   void diagnoses(std::vector<Diagnosis const*> list) { instruments_ = std::move(list); }
 
-  /// The fields of hello that a simulation decides.
+  /// The members of hello that depend on the simulation.
   nlohmann::json describe() const;
-  /// What a view shows at a step. Nothing if the page itself draws it, from the table.
+  /// The drawing of a view at a step; null if the page draws it itself, from the table.
   std::shared_ptr<Canvas const> draw(nlohmann::json const& view, std::int64_t step, double time) const;
   PictureFile picture(nlohmann::json const& request, std::int64_t step, double time) const;
   nlohmann::json particle(std::string const& ensemble, std::size_t number) const;
@@ -82,7 +82,7 @@ class Views {
   std::shared_ptr<CloudMemory> memory_ = std::make_shared<CloudMemory>();
 };
 
-/// The number of a field that may be left out or null; Error if it is something else.
+/// The number of an optional member that may be null. Throws Error if it is something else.
 double number_or(nlohmann::json const& object, char const* key, double otherwise);
 
 }  // namespace boltzmann

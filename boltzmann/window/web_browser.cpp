@@ -1,4 +1,4 @@
-// Messages in frames, pings, and leaving in every way there is.
+// Messages in frames, pings, and all ways of closing.
 #include <boltzmann/window/web_browser.hpp>
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 namespace boltzmann::web {
 namespace {
 
-// Read at a time.
+// The size of a read.
 constexpr std::size_t piece_bytes = 1U << 14U;
 
 /// At most `bytes` of UTF-8, cut between two characters.
@@ -19,7 +19,7 @@ std::string shortened(std::string text, std::size_t bytes) {
   return text;
 }
 
-/// Buffers that lie elsewhere: copied by the library as two pointers.
+/// Buffers stored elsewhere; the library copies only two pointers.
 struct Slice {
   using value_type = asio::const_buffer;
   using const_iterator = asio::const_buffer const*;
@@ -67,7 +67,7 @@ void Browser::send(WebMessage message) {
   if (leaving_ || finished_) return;
   std::size_t const bytes = message.bytes();
   if (queue_.size() + 1 > limits_.waiting_messages || waiting_ + bytes > limits_.waiting_bytes) {
-    // The message that is on its way ends in the middle: a socket may be closed between two frames.
+    // The message being sent ends in the middle: a socket may be closed between two frames.
     queue_.resize(writing_ ? 1 : 0);
     given_up_ = true;
     return leave(websocket::close_code::policy_error, "too slow: what was sent is not being read", close_timeout);
@@ -104,7 +104,7 @@ void Browser::finish() {
   destroy_stream(16);
 }
 
-/// What fails in the program behind an event is that browser's end, not the server's.
+/// An exception in a handler of the program closes that browser, not the server.
 template <class Event>
 void Browser::tell(Event const& event) {
   try {
@@ -114,9 +114,9 @@ void Browser::tell(Event const& event) {
   }
 }
 
-/// A wrong frame that comes while the stream is being closed makes the library's reader and closer wait for each
-/// other for ever (1.74), also after the socket has been closed; only the end of the stream, which owns both, ends
-/// them. All else that was going on has found the socket closed before so many other things are done.
+/// If a wrong frame arrives while the stream is being closed, the library's reader and closer wait for each other
+/// forever (1.74), even after the socket has been closed. Only destroying the stream, which owns both, ends them. All
+/// other operations have seen the closed socket after this number of further operations.
 void Browser::destroy_stream(int later) {
   asio::post(timer_.get_executor(), [self = shared_from_this(), later] {
     if (later > 0) return self->destroy_stream(later - 1);
@@ -124,8 +124,7 @@ void Browser::destroy_stream(int later) {
   });
 }
 
-/// Piece by piece: between two pieces of the library's own async_read a close may come, and change what it goes on
-/// with.
+/// Reads piece by piece: a close may occur between two pieces of the library's own async_read, and change its state.
 void Browser::read() {
   stream_->async_read_some(incoming_.prepare(piece_bytes),
                            [self = shared_from_this()](error_code error, std::size_t bytes) {
@@ -138,7 +137,7 @@ void Browser::read() {
                            });
 }
 
-/// Any frame is a sign of life; but who is to leave can't put it off by talking.
+/// Any frame is a sign of life, but it does not postpone the end of a browser that is being closed.
 void Browser::said_something() {
   if (!leaving_) alive_ = Clock::now();
 }
@@ -157,7 +156,7 @@ void Browser::pass_on() {
   });
 }
 
-/// The next frame of the message in front; whether it is its last.
+/// Prepares the next frame of the first message. Returns true if it is the last.
 bool Browser::next_slice() {
   WebMessage const& message = queue_.front();
   slice_.clear();
@@ -213,7 +212,7 @@ void Browser::close() {
   stream_->async_close(reason_, [self = shared_from_this()](error_code) { self->finish(); });
 }
 
-/// Looks at the clock: whether the other side still lives, whether it takes its leave.
+/// Checks the timeouts: of the other side's answers, and of its closing.
 void Browser::tick() {
   auto const seconds = std::clamp(limits_.idle_seconds / 8, 0.01, 1.0);
   timer_.expires_after(clock_time(seconds));
@@ -228,7 +227,7 @@ bool Browser::is_over() {
   double const silent = seconds_since(alive_);
   if (!joined_) return silent > limits_.handshake_seconds;
   if (leaving_) return silent > grace_;
-  // The library has closed it after a wrong frame, and now waits for the other side to close, too.
+  // The library has closed it after a wrong frame, and waits for the other side to close.
   if (!stream_->is_open()) return std::exchange(broken_, true);
   if (silent > limits_.idle_seconds) return true;
   if (silent > limits_.idle_seconds / 2 && !pinging_) {

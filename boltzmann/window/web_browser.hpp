@@ -1,4 +1,4 @@
-// Web browser: an open socket of a page: what waits to be sent to it, and its signs of life. Private to this room.
+// Web browser: an open socket of a page with its queue of messages and its timeouts. Private to this module.
 #pragma once
 
 #include <boltzmann/window/asio_types.hpp>
@@ -19,23 +19,22 @@ namespace boltzmann::web {
 
 namespace websocket = boost::beast::websocket;
 
-/// Is closed when its clock runs out, so that nothing that the other side does or leaves undone holds anything for
-/// long.
+/// Is closed when its timer expires, so that a peer that does not respond blocks nothing for long.
 class Browser : public std::enable_shared_from_this<Browser> {
  public:
-  /// `forget` is called when it has left; events and limits must outlive it.
+  /// `forget` is called after it has closed; events and limits must outlive it.
   Browser(std::uint64_t id, Socket socket, WebEvents const& events, WebLimits const& limits,
           std::function<void()> forget);
 
   /// Answers the request that opens the socket.
   void begin(WebRequest const& request);
   void send(WebMessage message);
-  /// Closes after what is waiting; gives up when nothing has moved for so long.
+  /// Closes after the queue has been sent. Gives up if nothing is sent for this time.
   void leave(websocket::close_code code, std::string reason, double seconds);
   void finish();
 
   bool leaving() const { return leaving_ || finished_; }
-  /// When it has said something last.
+  /// The time of the last message from it.
   Clock::time_point spoke() const { return spoke_; }
 
  private:
@@ -63,18 +62,18 @@ class Browser : public std::enable_shared_from_this<Browser> {
   boost::beast::flat_buffer incoming_;
   std::deque<WebMessage> queue_;
   std::size_t waiting_ = 0;  // bytes in the queue
-  std::size_t part_ = 0;     // where the next frame begins in the message in front
+  std::size_t part_ = 0;     // offset of the next frame in the first message
   std::size_t offset_ = 0;
-  std::vector<asio::const_buffer> slice_;  // the frame that is being written
+  std::vector<asio::const_buffer> slice_;  // the frame being written
   websocket::close_reason reason_;
   double grace_ = 0;
   bool joined_ = false;
   bool writing_ = false;
   bool pinging_ = false;
   bool broken_ = false;
-  bool leaving_ = false;   // nothing new is sent, nothing heard is told
-  bool given_up_ = false;  // and what waits is not sent either
-  bool closing_ = false;   // the last frame is on its way
+  bool leaving_ = false;   // new messages are neither queued nor reported
+  bool given_up_ = false;  // the queue is not sent either
+  bool closing_ = false;   // the last frame is being sent
   bool finished_ = false;
 };
 

@@ -1,4 +1,4 @@
-// Whose request it is, told by its head.
+// Identifies requests by their headers.
 #include <boltzmann/window/web_request.hpp>
 
 #include <algorithm>
@@ -46,7 +46,7 @@ std::optional<std::string> token_in(std::string_view target) {
   return found;
 }
 
-/// Takes as long for a nearly right token as for a wrong one.
+/// Constant time: takes as long for a nearly right token as for a wrong one.
 bool same_token(std::string_view right, std::string_view given) {
   unsigned volatile difference = right.size() == given.size() ? 0 : 1;
   for (std::size_t i = 0; i < right.size(); ++i) {
@@ -56,7 +56,7 @@ bool same_token(std::string_view right, std::string_view given) {
   return difference == 0;
 }
 
-/// Whether Host names this machine by itself; any port, because `ssh -L` may change it.
+/// True if Host names this machine, with any port, because `ssh -L` may change it.
 bool is_this_machine(std::string_view host) {
   for (std::string_view const name : {"127.0.0.1", "localhost", "[::1]"}) {
     if (!host.starts_with(name)) continue;

@@ -1,8 +1,8 @@
-// The web server, on Boost.Beast.
+// The web server, with Boost.Beast.
 //
-// Everything happens on one thread. Who connects is a Connection: it has asked for nothing yet, or is being answered;
-// one request a connection. Who opens a socket becomes a Browser. Each keeps a clock of its own and is closed when it
-// runs out, so that nothing that the other side does or leaves undone can hold anything for long.
+// Everything runs on one thread. A Connection is a client whose request is pending or being answered, one request per
+// connection. A client that opens a socket becomes a Browser. Each has a timer and is closed when it expires, so that a
+// peer that does not respond can't block the server for long.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/window/web_browser.hpp>
 
@@ -45,21 +45,21 @@ namespace {
 namespace http = boost::beast::http;
 using Acceptor = asio::basic_socket_acceptor<tcp, Executor>;
 
-// A closed connection may still say so much.
+// The number of bytes that a closed connection may still send.
 constexpr std::size_t close_bytes = 1U << 18U;
-// The part of handshake_seconds that a stranger has for certain to send its request.
+// The fraction of handshake_seconds that a client without the token certainly has to send its request.
 constexpr double least_handshake = 0.02;
-// At the end of the server, all browsers together.
+// The time to close all browsers at the end of the server.
 constexpr double end_seconds = 0.1;
 
-/// Tells a connection that there is no room, and closes it, at once.
+/// Answers a connection that there is no room, and closes it immediately.
 void reject(Socket& socket) {
   std::string const text = "Too many connections.\n";
   std::string const answer = response_head(503, text_type, text.size()) + text;
   error_code ignored;
   char heard[4096];
   socket.non_blocking(true, ignored);
-  socket.read_some(asio::buffer(heard), ignored);  // closing over unread bytes would cut off the answer
+  socket.read_some(asio::buffer(heard), ignored);  // closing with unread data would cut off the answer
   socket.write_some(asio::buffer(answer), ignored);
   socket.shutdown(Socket::shutdown_send, ignored);
   socket.close(ignored);
@@ -67,17 +67,17 @@ void reject(Socket& socket) {
 
 class Connection;
 
-/// What belongs together in one server: its place, its visitors, its browsers.
+/// The data of one server: connections and browsers.
 struct Server {
   WebEvents events;
   WebLimits limits;
   std::string token;
   asio::io_context context{1};
   Acceptor acceptor{context};
-  Timer pause{context};     // before the next accept, where the last one failed or there is no place
-  Timer patience{context};  // with the last browsers, at the end
+  Timer pause{context};     // before the next accept, after a failure or if there is no place
+  Timer patience{context};  // for the last browsers, at the end
   bool ending = false;
-  std::list<std::shared_ptr<Connection>> visitors;  // in the order in which they came
+  std::list<std::shared_ptr<Connection>> visitors;  // in order of arrival
   std::unordered_map<std::uint64_t, std::shared_ptr<Browser>> browsers;
   std::uint64_t last_browser = 0;
   std::uint16_t port = 0;
@@ -91,7 +91,7 @@ struct Server {
   void forget(std::uint64_t browser);
   bool room_for_browser();
   void end();
-  /// Does something with a browser, on the server's thread, if it is still there.
+  /// Calls a function with a browser, on the server's thread, if it still exists.
   template <class Function>
   void with(std::uint64_t browser, Function function) {
     asio::post(context, [this, browser, function = std::move(function)]() mutable {
@@ -103,7 +103,7 @@ struct Server {
   }
 };
 
-/// A connection and its one request, until it is answered.
+/// A connection and its single request, until it is answered.
 class Connection : public std::enable_shared_from_this<Connection> {
  public:
   Connection(Server& state, Socket socket)
@@ -117,14 +117,14 @@ class Connection : public std::enable_shared_from_this<Connection> {
 
   void begin() {
     parser_.header_limit(static_cast<std::uint32_t>(state_.limits.request_bytes));
-    parser_.body_limit(std::numeric_limits<std::uint64_t>::max());  // it is looked at below
+    parser_.body_limit(std::numeric_limits<std::uint64_t>::max());  // checked below
     close_after(state_.limits.handshake_seconds);
     http::async_read_header(socket_, heard_, parser_, [self = shared_from_this()](error_code error, std::size_t) {
       if (!self->closed_) self->heard(error);
     });
   }
 
-  /// Makes room for another.
+  /// Closes it to make room for another.
   void evict() {
     if (closed_) return;
     if (!answered_) reject(socket_);
@@ -144,7 +144,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   void close_after(double seconds) {
     timer_.expires_after(clock_time(seconds));
     timer_.async_wait([self = shared_from_this()](error_code error) {
-      // A wait that was over just when its clock was set anew is no end.
+      // A timer that expired just before it was reset does not count.
       if (!error && self->timer_.expiry() <= Clock::now()) self->close();
     });
   }
@@ -195,7 +195,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
     bool const head_only = parser_.get().method() == http::verb::head;
     std::array<asio::const_buffer, 2> const buffers = {asio::buffer(head_),
                                                        asio::buffer(*content_, head_only ? 0 : content_->size())};
-    // Whoever knows the token may read slowly, but not stop reading.
+    // A client with the token may read slowly, but not stop reading.
     auto const go_on = [self = shared_from_this()](error_code error, std::size_t sent) -> std::size_t {
       if (self->closed_ || error) return 0;
       if (self->known_ || sent == 0) {
@@ -214,7 +214,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
     });
   }
 
-  /// Closing over unread bytes would cut off the answer: reads until the other side has closed.
+  /// Closing with unread data would cut off the answer, so read until the other side has closed.
   void wait_for_end() {
     socket_.async_read_some(asio::buffer(scrap_), [self = shared_from_this()](error_code error, std::size_t bytes) {
       if (self->closed_) return;
@@ -234,7 +234,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   std::shared_ptr<std::string const> content_;
   std::array<char, 4096> scrap_;
   std::size_t farewell_ = 0;
-  bool known_ = false;  // has shown the token
+  bool known_ = false;  // the client has sent the token
   bool answered_ = false;
   bool closed_ = false;
 };
@@ -264,7 +264,7 @@ void Server::listen(std::uint16_t wanted) {
   tcp::endpoint const place(asio::ip::address_v4::loopback(), wanted);
   try {
     acceptor.open(place.protocol());
-    ::fcntl(acceptor.native_handle(), F_SETFD, FD_CLOEXEC);  // programs that are started don't hold the port
+    ::fcntl(acceptor.native_handle(), F_SETFD, FD_CLOEXEC);  // child processes must not inherit the port
     acceptor.set_option(Acceptor::reuse_address(true));
     acceptor.bind(place);
     acceptor.listen();
@@ -280,12 +280,12 @@ void Server::listen(std::uint16_t wanted) {
 void Server::accept() {
   acceptor.async_accept([this](error_code error, Socket socket) {
     if (ending) return;
-    if (error) return accept_after(0.1);  // too many open files, for one: others may close some
+    if (error) return accept_after(0.1);  // for example too many open files; others may be closed
     welcome(std::move(socket));
   });
 }
 
-/// Meanwhile the system keeps those that connect in its queue.
+/// Meanwhile the operating system queues new connections.
 void Server::accept_after(double seconds) {
   pause.expires_after(clock_time(seconds));
   pause.async_wait([this](error_code) {
@@ -293,9 +293,9 @@ void Server::accept_after(double seconds) {
   });
 }
 
-/// At most half of the places are for strangers, which have not shown the token. The stranger that came first makes room
-/// for the next one, but not before it has had the time to send its request; until then nothing more is accepted. So
-/// connections that keep silent cannot lock out a browser, which sends its request at once.
+/// Connections without the token ("strangers") have at most half of the places. The oldest stranger makes room for a
+/// new one, but only after the time to send its request; until then no connection is accepted. So silent connections
+/// can't lock out a browser, which sends its request immediately.
 void Server::welcome(Socket socket) {
   ::fcntl(socket.native_handle(), F_SETFD, FD_CLOEXEC);
   error_code ignored;
@@ -335,7 +335,7 @@ void Server::forget(std::uint64_t browser) {
   if (ending && browsers.empty()) patience.cancel();
 }
 
-/// So that a program which keeps all places, and has nothing to say, doesn't lock out a page.
+/// Ensures that silent browsers that occupy all places don't lock out a page.
 bool Server::room_for_browser() {
   std::size_t staying = 0;
   std::shared_ptr<Browser> quietest;
@@ -389,7 +389,7 @@ WebServer::WebServer(WebEvents events, std::uint16_t port, std::string token, We
   state_->token = token.empty() ? random_token() : std::move(token);
   state_->listen(port);
   state_->accept();
-  // Signals are for the threads of the program, not for this one.
+  // Signals are handled by the other threads of the program.
   sigset_t all;
   sigset_t before;
   sigfillset(&all);
@@ -402,7 +402,7 @@ WebServer::WebServer(WebEvents events, std::uint16_t port, std::string token, We
           state.context.run();
           done = true;
         } catch (std::exception const&) {
-          // No memory for one operation, for one: the connection that it belonged to is closed by its clock.
+          // For example out of memory in one operation; the timer closes its connection.
         }
       }
     });

@@ -1,4 +1,4 @@
-// Views of a simulation, the clients that look at them, and its run.
+// Combines the views of a simulation, the clients, and the run.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/team.hpp>
 #include <boltzmann/pictures/colour.hpp>

@@ -1,10 +1,9 @@
-// Window: watch and steer a simulation in a browser. Two lines of a program:
-//
+// Window: observe and control a simulation in a browser. Two lines of a program:
 //   Window window(recording);        // prints its address
 //   window.run(2000);                // in place of run_with_progress
 //
-// PLAY, STEP, REWD, STOP and QUIT are on the page; any number of browsers may look, come and go, and none of them can
-// hold the simulation up.
+// PLAY, STEP, REWD, STOP and QUIT are on the page. Any number of browsers may connect and disconnect, and none of them
+// can delay the simulation.
 #pragma once
 
 #include <boltzmann/pictures/canvas.hpp>
@@ -24,26 +23,25 @@ namespace boltzmann {
 class Recording;
 
 struct WindowOptions {
-  std::uint16_t port = 0;  ///< 0: a free one
-  bool play = false;       ///< begins at once, at full speed, and ends with the last step if nobody looks then
+  std::uint16_t port = 0;  ///< 0: any free port
+  bool play = false;       ///< starts immediately, unthrottled, and ends with the last step if no browser is connected
   bool quiet = false;      ///< prints neither the address nor progress
   std::string title = {}, description = {}, name = {};
 };
 
 class Window {
  public:
-  /// A window on a run that is recorded, with its pictures and its measured quantities. Listens on 127.0.0.1 at once
-  /// and prints its address. Error if the port is taken.
+  /// A window of a run that is recorded, with its pictures and its measured quantities. Listens on 127.0.0.1
+  /// immediately and prints its address. Throws Error if the port is in use.
   explicit Window(Recording& recording, WindowOptions options = {});
-  /// A window on a simulation without files.
+  /// A window of a simulation without files.
   Window(Simulation& simulation, UnitSystem const& units, WindowOptions options = {});
   ~Window();
   Window(Window const&) = delete;
   Window& operator=(Window const&) = delete;
 
-  /// Adds a drawing of your own to the list: draw(canvas, scheme) or draw(canvas), called between two steps whenever
-  /// somebody wants to see it. In place of the one of that name, if there is one.
-  ///
+  /// Adds a drawing of your own to the list: draw(canvas, scheme) or draw(canvas), called between two steps when a
+  /// browser shows it. It replaces one of the same name.
   ///   window.install("Kinetic", [&](Canvas& canvas) {
   ///     for (auto const& atom : atoms) canvas.point(atom.position[0], dot(atom.velocity, atom.velocity) / 2);
   ///   });
@@ -56,18 +54,18 @@ class Window {
         draw(canvas, static_cast<Scheme const&>(*simulation().schemes().front()));
       });
   }
-  /// A picture by its names of fields: add("Speed along x", {.drawing = "phase-space", .x = "position.x", .y =
-  /// "speed"}). Error if it can't be drawn of this simulation.
+  /// Adds a picture, given by the names of its fields: add("Speed along x", {.drawing = "phase-space", .x =
+  /// "position.x", .y = "speed"}). Throws Error if it can't be drawn of this simulation.
   void add(std::string name, Picture picture);
-  /// The colours of the ensembles that have none of their own, by name or "#rrggbb". Error for another word.
+  /// The colours of ensembles without one of their own, by name or "#rrggbb". Throws Error for any other word.
   void colours(std::vector<std::string> const& names);
 
   /// "http://127.0.0.1:40123/?token=..."
   std::string address() const;
   Simulation& simulation() const;
 
-  /// Runs as somebody at the window wants, until QUIT or Ctrl-C; `steps` are planned. Records, and prints what
-  /// run_with_progress prints; throws what it throws.
+  /// Runs under control of the browsers, until QUIT or Ctrl-C; `steps` are planned. Records, prints and throws as
+  /// run_with_progress does.
   RunReport run(std::uint64_t steps);
 
  private:

@@ -1,4 +1,4 @@
-// From a canvas to the arrays and words of protocol.md.
+// Converts a canvas to the arrays and words of protocol.md.
 #include <boltzmann/pictures/figure_layout.hpp>
 #include <boltzmann/pictures/projection.hpp>
 #include <boltzmann/window/wire.hpp>
@@ -34,7 +34,7 @@ char const* name_of(ColourMap map) {
 // JSON has no infinities.
 json number(double value) { return std::isfinite(value) ? json(value) : json(nullptr); }
 
-// Coordinates -> unit coordinates of the page.
+// Converts coordinates to unit coordinates of the page.
 class Places {
  public:
   explicit Places(Canvas const& canvas) : space_(canvas.projection().has_value()) {

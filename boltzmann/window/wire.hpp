@@ -1,4 +1,5 @@
-// Wire: canvases as bytes for the page (protocol.md). Single precision, each array once, nothing copied that is large.
+// Wire format: canvases as bytes for the page (protocol.md). Single precision, each array once, without copies of large
+// arrays.
 #pragma once
 
 #include <boltzmann/pictures/canvas.hpp>
@@ -13,19 +14,19 @@
 
 namespace boltzmann {
 
-/// A binary message that is being put together: a head in JSON, and arrays in the payload.
+/// A binary message under construction: a header in JSON, and arrays in the payload.
 class BinaryMessage {
  public:
-  /// Takes an array into the payload; returns what stands for it in the head.
+  /// Adds an array to the payload, and returns its description for the header.
   nlohmann::json array(std::vector<float> values);
   nlohmann::json array(std::vector<double> values);
   nlohmann::json array(std::vector<std::uint32_t> values);
   nlohmann::json array(std::vector<unsigned char> values);
-  /// The same for an array that something else owns.
+  /// The same for an array with another owner.
   nlohmann::json array(std::shared_ptr<void const> owner, std::vector<float> const& values);
   nlohmann::json array(std::shared_ptr<void const> owner, std::vector<std::uint32_t> const& values);
 
-  /// The message. The payload is gone afterwards.
+  /// The message. Moves the payload out.
   WebMessage finish(nlohmann::json const& head);
 
  private:
@@ -35,13 +36,14 @@ class BinaryMessage {
   std::size_t bytes_ = 0;
 };
 
-/// A canvas as the page wants it: its arrays go into the message. Clouds are not copied, so the canvas is shared.
+/// A canvas in the format of the page; its arrays are added to the message. Clouds are not copied, so the canvas is
+/// shared.
 nlohmann::json canvas_json(std::shared_ptr<Canvas const> const& canvas, BinaryMessage& message);
 
-/// The rows of a table from `from` on, which go into the message, as an update has them.
+/// The rows of a table from `from` on, in the format of an update; they are added to the message.
 nlohmann::json table_json(ShownTable const& table, std::size_t from, BinaryMessage& message);
 
-/// "#rrggbb", or "#rrggbbaa" where it is not opaque; ink is #010101.
+/// "#rrggbb", or "#rrggbbaa" if it is not opaque; ink is #010101.
 std::string colour_text(Colour colour);
 
 /// Every colour map as 256 colours, by name.

@@ -1,4 +1,4 @@
-// Solids: Hooke's law for shear, von Mises' yield, failure in tension; put on any equation of state.
+// Solids: Hooke's law for shear, von Mises' yield, failure in tension; for any equation of state.
 #pragma once
 
 #include <boltzmann/laws/material.hpp>
@@ -9,7 +9,7 @@
 
 namespace boltzmann {
 
-/// A tensor on all three axes: what stands on the axes that D dimensions don't have, such that the trace is zero.
+/// A tensor on all three axes: the components on the axes beyond D make the trace zero.
 template <int D>
 Tensor<3> on_three_axes(Tensor<D> const& a) {
   Tensor<3> result{};
@@ -39,18 +39,18 @@ double largest_principal(Tensor<D> const& deviatoric) {
 
 /// For particles with the fields of Solid. The stress s is deviatoric, positive in tension, on three axes (plane strain
 /// in 2D, uniaxial strain in 1D). With E the symmetric part of the velocity gradient and W the spin:
-///   ds/dt = 2 G (E - (div v / 3) I) + W.s - s.W          (Hooke and Jaumann: the stress turns with the body)
-/// and, as soon as its equivalent stress is yield_stress, without what would take s further out: perfect plasticity.
-/// The strength that acts is never more than yield_stress; what a finite step leaves stored above it relaxes within the
+///   ds/dt = 2 G (E - (div v / 3) I) + W.s - s.W          (Hooke and Jaumann: the stress rotates with the body)
+/// and, once its equivalent stress is yield_stress, without the part that would increase it: perfect plasticity. The
+/// acting strength is never more than yield_stress; stress that a finite step has stored above it relaxes within the
 /// time that sound needs through the range. While the largest principal tension of the undamaged material is above
 /// tensile_strength, damage d grows at 0.4 c / range (1 - d): cracks run at 0.4 of the sound speed. Tension and
 /// strength are multiplied by 1 - d; a broken solid only resists compression.
 ///
-/// The hourglass strain h (schemes/smooth/solid_passes.hpp) turns with the body, dh/dt = W.h, and relaxes as the stress
-/// does: with plastic flow, and where its equivalent stress sqrt(3) G |h| is above yield_stress.
+/// The hourglass strain h (schemes/smooth/solid_passes.hpp) rotates with the body, dh/dt = W.h, and relaxes like the
+/// stress: with plastic flow, and where its equivalent stress sqrt(3) G |h| is above yield_stress.
 ///
-/// All of it stands in rates, which are added to the influence; nothing changes a particle. Elastic energy and the heat
-/// of plastic flow come into the specific energy by the work of the stress (Eq 3), so that energy evolves also over a
+/// All of it is in rates, which are added to the influence; no function changes a particle. Elastic energy and the heat
+/// of plastic flow enter the specific energy by the work of the stress (Eq 3), so that energy evolves also for a
 /// barotropic equation of state.
 template <class EquationOfState>
 struct Elastic {
@@ -59,7 +59,7 @@ struct Elastic {
   EquationOfState material;
   double shear_modulus;                 ///< G
   double yield_stress = unlimited;      ///< of a rod under tension
-  double tensile_strength = unlimited;  ///< the largest principal tension that it bears
+  double tensile_strength = unlimited;  ///< the largest principal tension before failure
 
   static constexpr MaterialText text{
       .name = "elastic", .doc = "strength, on any material", .formula = "ds/dt = 2 G (E - (div v / 3) I) + W.s - s.W"};
@@ -97,13 +97,13 @@ struct Elastic {
                   "viscosity goes outside: Newtonian<Elastic<EquationOfState>>");
     return {p.stress * (-whole(p) * within_yield(equivalent_stress(p.stress))), {}};
   }
-  /// Strength diffuses nothing.
+  /// Strength causes no diffusion.
   template <class P>
   double diffusivity(P const&) const {
     return 0;
   }
 
-  /// Against hourglass strain: G times 1 - d, and never more strength than yield_stress.
+  /// Against hourglass strain: G times 1 - d, limited so that the strength is at most yield_stress.
   template <class P>
   double shear_stiffness(P const& p) const {
     return shear_modulus * whole(p) * within_yield(hourglass_stress(p));
@@ -122,7 +122,7 @@ struct Elastic {
     double const equivalent = equivalent_stress(s), crossing = state(p).sound_speed / p.range;
     double relaxation = crossing * (1 - within_yield(hourglass_stress(p)));  // of h
     if (equivalent >= yield_stress) {
-      // Plastic flow is along s; dq/dt of it is -3G plastic_rate. On the axes without components nothing is strained.
+      // Plastic flow is along s; dq/dt of it is -3G plastic_rate. Axes without components are not strained.
       double const outward = max(contraction(s, strain_rate), 0) / equivalent;
       double const plastic_rate = outward + (equivalent - yield_stress) * crossing / (3 * shear_modulus);
       double const of_stress = 3 * shear_modulus * plastic_rate / equivalent;

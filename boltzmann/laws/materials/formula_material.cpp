@@ -1,4 +1,4 @@
-// From the texts of an equation of state to one program, which is run on one particle at a time.
+// Compiles the texts of an equation of state to one program, which is run for one particle at a time.
 #include <boltzmann/formulas/evaluate.hpp>
 #include <boltzmann/formulas/formula_reader.hpp>
 #include <boltzmann/laws/materials/formula_material.hpp>

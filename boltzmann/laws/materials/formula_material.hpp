@@ -1,4 +1,4 @@
-// A material whose equation of state is typed.
+// A material whose equation of state is text.
 #pragma once
 
 #include <boltzmann/core/unit_system.hpp>
@@ -10,18 +10,19 @@
 
 namespace boltzmann {
 
-/// The texts of an equation of state, of `density` and `specific_energy`. Dimensions are checked unless units are reduced.
+/// The texts of an equation of state, as functions of `density` and `specific_energy`. Dimensions are checked unless
+/// units are reduced.
 struct StateFormulas {
   std::string pressure;
-  std::string temperature = {};  ///< empty: there is none
-  std::string sound_speed = {};  ///< empty: from the pressure
+  std::string temperature = {};  ///< empty: none
+  std::string sound_speed = {};  ///< empty: derived from the pressure
   UnitSystem units = UnitSystem::reduced();
-  int dimension = 3;  ///< of space, on which that of a density depends
+  int dimension = 3;  ///< of space; the dimension of a density depends on it
 };
 
 /// P(rho, e), and T(rho, e). The sound speed is that of this pressure, c^2 = dP/drho + P/rho^2 dP/de with exact
-/// derivatives; where c^2 is below zero the material comes apart, and it is sqrt(|c^2|). The specific energy evolves, as
-/// that of a gas does. Copies share the formulas.
+/// derivatives. Where c^2 is negative the material is unstable, and the sound speed is sqrt(|c^2|). The specific energy
+/// evolves like that of a gas. Copies share the formulas.
 class FormulaMaterial {
  public:
   static constexpr MaterialText text{
@@ -31,7 +32,7 @@ class FormulaMaterial {
           "P(density, specific_energy) = pressure, T = temperature, and c = sound_speed unless that of P is meant"};
 
   FormulaMaterial() = default;
-  /// FormulaPartError if one of them is wrong: "pressure", "temperature" or "sound_speed".
+  /// FormulaPartError if a text is invalid: "pressure", "temperature" or "sound_speed".
   explicit FormulaMaterial(StateFormulas const& formulas);
 
   template <class P>

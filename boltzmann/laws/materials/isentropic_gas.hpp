@@ -1,4 +1,4 @@
-// Gases whose entropy is the same everywhere and always: the pressure is a function of the density alone.
+// Gases of constant, uniform entropy: the pressure is a function of the density alone.
 #pragma once
 
 #include <boltzmann/laws/material.hpp>
@@ -29,8 +29,8 @@ struct IsentropicGas {
 };
 
 /// P = coefficient rho^2, e = coefficient rho, c^2 = 2 coefficient rho: the isentrope of the two-dimensional ideal gas,
-/// "P = rho^2 / 2" in Hoover and Hoover's SPAM. Its smooth particles are atoms, with their weight as the pair potential
-/// (Eq 20).
+/// "P = rho^2 / 2" in Hoover and Hoover's SPAM. Its smooth particles behave like atoms, with their weight as the pair
+/// potential (Eq 20).
 struct QuadraticGas {
   double coefficient = 0.5;
 

@@ -1,4 +1,4 @@
-// Newton's viscosity and Fourier's conduction, put on any material.
+// Newton's viscosity and Fourier's conduction, added to any material.
 #pragma once
 
 #include <boltzmann/core/error.hpp>
@@ -6,13 +6,14 @@
 
 namespace boltzmann {
 
-/// To the pressure tensor: -2 shear_viscosity (E - (div v / D) I) - bulk_viscosity (div v) I, E the symmetric part of
-/// the velocity gradient; heat flux -conductivity grad T. The trace is shared among the D dimensions there are, as in
-/// Hoover's texts: in 2D lambda = bulk - shear, and a flat expansion meets the bulk viscosity alone. (For a slice of a
-/// three-dimensional fluid in 2D, whose lambda is bulk - 2/3 shear, add shear_viscosity / 3 to the bulk viscosity.)
+/// Adds to the pressure tensor -2 shear_viscosity (E - (div v / D) I) - bulk_viscosity (div v) I, E the symmetric part
+/// of the velocity gradient, and the heat flux -conductivity grad T. The trace is divided by the number of dimensions
+/// D, as in Hoover's texts: in 2D lambda = bulk - shear, and only the bulk viscosity resists a uniform expansion in the
+/// plane. (For a slice of a three-dimensional fluid in 2D, whose lambda is bulk - 2/3 shear, add shear_viscosity / 3 to
+/// the bulk viscosity.)
 ///
-/// What the material under it adds (the strength of a solid) stays. A barotropic one stays barotropic: what viscosity
-/// takes out of the motion is lost then, as if to a bath.
+/// The contributions of the underlying material (the strength of a solid) are kept. A barotropic one stays barotropic:
+/// energy that viscosity removes from the motion is then lost, as if to a bath.
 template <class EquationOfState>
 struct Newtonian {
   EquationOfState material;
@@ -52,7 +53,8 @@ struct Newtonian {
   }
 
   /// The largest of: shear_viscosity / rho, of vortices; (bulk_viscosity + 2 (1 - 1/D) shear_viscosity) / rho, of
-  /// sound; 2 conductivity / (rho cv), of heat, whose shortest waves pairs damp twice as fast (Transport).
+  /// sound; 2 conductivity / (rho cv), of heat, whose shortest waves are damped twice as fast by the pair form
+  /// (Transport).
   template <class P>
   double diffusivity(P const& p) const {
     constexpr double flattening = 2 - 2.0 / P::dimension;

@@ -1,4 +1,4 @@
-// Tables of pressures: the cubic that does not overshoot, its integral, and files.
+// Tables of pressures: the monotone cubic, its integral, and files.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/laws/materials/pressure_table.hpp>
 #include <boltzmann/laws/two_columns.hpp>
@@ -24,8 +24,8 @@ void check_points(std::span<PressurePoint const> points) {
   }
 }
 
-/// The slope at an end, from the two intervals next to it, h the width and d the secant: of the parabola, unless that
-/// would overshoot.
+/// The slope at an end, from the two intervals next to it, h the width and d the secant: that of the parabola, unless
+/// it would overshoot.
 double end_slope(double h0, double d0, double h1, double d1) {
   double const slope = ((2 * h0 + h1) * d0 - h0 * d1) / (h0 + h1);
   if (slope * d0 <= 0) return 0;
@@ -62,7 +62,7 @@ PressureTable::Value PressureTable::Piece::at(double density_there) const {
 }
 
 double PressureTable::Piece::energy_at(double density_there) const {
-  // Gauss and Legendre's places and weights.
+  // Points and weights of Gauss-Legendre quadrature.
   constexpr double place[] = {0.1834346424956498, 0.5255324099163290, 0.7966664774136267, 0.9602898564975363};
   constexpr double weight[] = {0.3626837833783620, 0.3137066458778873, 0.2223810344533745, 0.1012285362903763};
   double const half = (density_there - density) / 2, centre = density + half;
@@ -121,7 +121,7 @@ double PressureTable::energy(double density) const {
   if (density < first_.density) return first_.pressure / square(first_.density) * density;
   auto const& there = piece(density);
   if (&there != &pieces_->back()) return there.energy_at(density);
-  // The straight line, however far it goes.
+  // The straight line beyond the last point.
   double const x = density - there.density, rising = there.c0 - there.c1 * there.density;
   return there.energy + rising * x / (density * there.density) + there.c1 * std::log1p(x / there.density);
 }

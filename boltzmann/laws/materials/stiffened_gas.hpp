@@ -6,8 +6,7 @@
 namespace boltzmann {
 
 /// P = (gamma - 1) rho e - gamma stiffness, e = cv T + stiffness / rho, c^2 = gamma (P + stiffness) / rho. With
-/// stiffness 0 it is the ideal gas. Where the material has been pulled further than it holds, P < -stiffness, the sound
-/// speed is zero.
+/// stiffness 0 it is the ideal gas. Beyond its tensile limit, P < -stiffness, the sound speed is zero.
 struct StiffenedGas {
   double gamma;
   double stiffness;  ///< a pressure, P_infinity

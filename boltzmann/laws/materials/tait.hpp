@@ -1,4 +1,4 @@
-// Tait's equation: liquids that are hard to compress.
+// Tait's equation: nearly incompressible liquids.
 #pragma once
 
 #include <boltzmann/laws/material.hpp>
@@ -6,8 +6,8 @@
 namespace boltzmann {
 
 /// P = B [(rho / rho0)^gamma - 1] + background, B = rho0 c0^2 / gamma; c = c0 (rho / rho0)^((gamma - 1) / 2).
-/// Barotropic: no temperature. Below the reference density the pressure falls under the background; a liquid that shall
-/// not hold together there needs another material.
+/// Barotropic: no temperature. Below the reference density the pressure falls below the background; for a liquid
+/// without cohesion use another material.
 struct Tait {
   double reference_density;        ///< rho0, where the pressure is the background
   double sound_speed;              ///< c0, at rho0

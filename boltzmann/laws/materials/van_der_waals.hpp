@@ -10,11 +10,11 @@ namespace boltzmann {
 /// With k = Boltzmann's constant / mass of a molecule and f degrees of freedom of a molecule:
 /// e = (f/2) k T - a rho, P = rho k T / (1 - b rho) - a rho^2, c^2 = (1 + 2/f) k T / (1 - b rho)^2 - 2 a rho.
 /// Critical point: rho = 1 / 3b, k T = 8a / 27b, P = a / 27b^2. Where c^2 is negative, gas and liquid separate; the
-/// sound speed is then sqrt(|c^2|): ripples grow as fast as they would run. At rho >= 1/b there is no such fluid: the
-/// pressure is NaN, which ends a run with the particle named.
+/// sound speed is then sqrt(|c^2|): ripples grow at the rate at which they would propagate. At rho >= 1/b there is no
+/// such fluid: the pressure is NaN, which ends a run with a message that names the particle.
 struct VanDerWaals {
   double a;         ///< attraction: pressure / density^2
-  double b;         ///< volume that molecules take, per mass
+  double b;         ///< volume of the molecules, per mass
   double k_over_m;  ///< Boltzmann's constant / mass of a molecule
   double degrees_of_freedom;
 
@@ -38,7 +38,7 @@ struct VanDerWaals {
 
   template <class P>
   State state(P const& p) const {
-    double const free = 1 - b * p.density;                                                // part of the volume
+    double const free = 1 - b * p.density;                                                // free fraction of the volume
     double const thermal = 2 / degrees_of_freedom * (p.specific_energy + a * p.density);  // k T
     if (!(free > 0)) {
       constexpr double none = std::numeric_limits<double>::quiet_NaN();

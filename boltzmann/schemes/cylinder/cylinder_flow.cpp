@@ -20,7 +20,7 @@ namespace {
 using Complex = std::complex<double>;
 
 constexpr std::size_t image_doubles = row_stride<Vortex<2>>;
-constexpr std::size_t grain = 64;  // whole blocks of the kernel
+constexpr std::size_t grain = 64;  // a multiple of the kernel's block
 
 }  // namespace
 
@@ -119,7 +119,7 @@ void CylinderFlow::add_stream(std::span<double const> places, double /*time*/, s
       velocities[2 * i + a] = outside(tracers.row(i)) ? velocities[2 * i + a] + tracers.influence(i)[a] : nowhere;
 }
 
-/// By the images as they are.
+/// Adds the velocity of the present images.
 void CylinderFlow::carry(AnyEnsemble& ensemble) {
   PairKernel const kernel = for_instruction_set([](auto set) { return image_kernel<decltype(set)::value>(); });
   ImageLaw const law{};

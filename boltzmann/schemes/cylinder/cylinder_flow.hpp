@@ -1,6 +1,5 @@
 // CylinderFlow: a stream and vortices past a circle in 2D, by images (Milne-Thomson's circle theorem). The circle is a
-// streamline, whatever vortices do; they carry each other by another scheme.
-//
+// streamline for any vortices. Another scheme calculates how vortices advect each other.
 //   CylinderFlow cylinder(box, {.stream = {1, 0}, .radius = 1});
 //   cylinder.add(vortices);
 //   cylinder.add(tracers);
@@ -25,25 +24,27 @@ struct CylinderOptions {
 };
 OptionTable const& cylinder_options();
 
-/// What a cylinder makes of a flow: the stream U (1 - R^2 / z^2), a circulation, and for each vortex outside, at z0 with
-/// circulation Gamma, one of -Gamma at R^2 / conj(z0) and one of Gamma at the centre. The core of an image is R^2 / |z0|^2
-/// of the vortex' own. It acts on all that is added, and nothing of it is there for who is inside. O(N^2).
+/// The flow due to a cylinder: the stream U (1 - R^2 / z^2), a circulation, and two images of each vortex outside. A
+/// vortex at z0 with circulation Gamma has images of -Gamma at R^2 / conj(z0) and of Gamma at the centre. The core of
+/// an image is R^2 / |z0|^2 of the vortex' own. The flow acts on all added particles outside the cylinder, and is zero
+/// inside. O(N^2).
 class CylinderFlow final : public Scheme {
  public:
-  /// Error if the box is not of 2 dimensions or not open, or the radius not positive, or a number not finite.
+  /// Throws Error if the box is not two-dimensional or not open, the radius is not positive, or a number is not finite.
   CylinderFlow(Box box, CylinderOptions const& options);
 
   CylinderOptions const& options() const { return options_; }
 
-  /// Particles that the flow carries; those with vorticity have images.
+  /// Adds particles that the flow advects; those with vorticity have images.
   template <CarriedParticle P>
   void add(Ensemble<P>& ensemble) {
     add(ensemble, source_kind<P>());
   }
-  /// For code that knows classes only at run time. Error if it is not carried by a flow, or a vortex is not outside.
+  /// For code that selects classes at run time. Throws Error if the class is not advected by a flow, or a vortex is not
+  /// outside.
   void add(AnyEnsemble& ensemble, SourceKind const& kind);
 
-  /// PhysicsFailure if a vortex is not outside of the cylinder.
+  /// Throws PhysicsFailure if a vortex is not outside the cylinder.
   void add_influences(double time) override;
   std::optional<std::uint64_t> revision() const override { return revision_with({}); }
   void add_stream(std::span<double const> places, double time, std::span<double> velocities) override;
@@ -52,7 +53,7 @@ class CylinderFlow final : public Scheme {
   std::string explain(AnyEnsemble const& ensemble, std::size_t i) const override;
   void make_reversible(double quantum) override;
   std::string undivided() const override { return ""; }
-  /// All ranks find all images, and each what it carries of its share.
+  /// Every rank computes all images, and advects its own particles.
   void divide(Division* division) override { division_ = division; }
   std::size_t bytes() const override;
   std::string summary() const override;
@@ -67,7 +68,7 @@ class CylinderFlow final : public Scheme {
   bool outside(double const* position) const;
 
   CylinderOptions options_;
-  Division* division_ = nullptr;  // while a run is divided
+  Division* division_ = nullptr;  // set during a divided run
   std::vector<Carried> carried_;
   std::vector<double> images_;  // rows of Vortex<2>
   std::vector<double> velocity_;

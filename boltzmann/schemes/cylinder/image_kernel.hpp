@@ -1,4 +1,4 @@
-// The kernel that sums what images do to particles of any class that a flow carries. Private to this room.
+// The kernel that sums the velocities of images at particles of any advected class. Private to this module.
 #pragma once
 
 #include <boltzmann/core/instruction_set.hpp>
@@ -7,12 +7,12 @@
 
 namespace boltzmann {
 
-/// Vortices on whatever begins with a position.
+/// Vortices acting on any class whose row begins with a position.
 struct ImageLaw : BiotSavart {
   static constexpr bool on_longer_rows = true;
 };
 
-/// Kernel units define it, once for each instruction set.
+/// Defined by kernel units, once per instruction set.
 template <InstructionSet set>
 PairKernel image_kernel();
 

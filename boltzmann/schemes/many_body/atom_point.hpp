@@ -1,5 +1,5 @@
-// Atom points: what passes over pairs read of atoms that feel their surroundings, whatever class and ensemble they are
-// of. What stands behind the position is filled between the passes.
+// Atom points: the data of atoms with many-body forces that passes over pairs read, independent of class and ensemble.
+// The members after the position are filled between the passes.
 #pragma once
 
 #include <boltzmann/particles/particle.hpp>
@@ -13,15 +13,15 @@ struct EmbeddedPoint : Particle<D, Real> {
   Real slope;  ///< dF/d(density)
 };
 
-/// One of several elements.
+/// An atom of an alloy, with its element.
 template <int D, class Real = double>
 struct AlloyPoint : Particle<D, Real> {
   static constexpr char const* class_name = "atom of an alloy";
-  Real element;  ///< its number
+  Real element;  ///< number of the element
   Real slope;    ///< dF/d(density)
 };
 
-/// One with bonds, each of a weight g and a direction u.
+/// An atom with bonds, each with a weight g and a direction u.
 template <int D, class Real = double>
 struct BondedPoint : Particle<D, Real> {
   static constexpr char const* class_name = "atom with bonds";

@@ -1,8 +1,8 @@
-// The passes of Stillinger and Weber's atoms over pairs. Their energy of three bodies is one of sums over the bonds of
-// each atom: with g_j the weight of bond j and u_j its direction,
-//   sum_{j<k} g_j g_k (u_j.u_k - c)^2 = 1/2 (Q:Q - 2 c P.P + c^2 G^2 - (1 - c)^2 sum_j g_j^2),
-// G = sum g, P = sum g u, Q = sum g u u. So the first pass sums these, and forces are a second one over pairs: no loop
-// goes over triples.
+// The passes over pairs for Stillinger-Weber atoms. Their three-body energy is a function of sums over the bonds of
+// each atom. With g_j the weight of bond j and u_j its direction,
+//   sum_{j<k} g_j g_k (u_j.u_k - c)^2 = 1/2 (Q:Q - 2 c P.P + c^2 G^2 - (1 - c)^2 sum_j g_j^2), G = sum g, P = sum g u,
+//   Q = sum g u u.
+// So the first pass computes these sums, and a second pass over pairs computes forces. No loop over triples is needed.
 #pragma once
 
 #include <boltzmann/core/pack_math.hpp>
@@ -22,7 +22,7 @@ struct BondSums {
 
 namespace detail {
 
-/// A symmetric tensor, its upper half row by row, times a vector.
+/// A symmetric tensor, stored as its upper half row by row, times a vector.
 template <int D, class Real>
 [[gnu::always_inline]] inline Vector<D, Real> upper_times(Real const* upper, Vector<D, Real> const& u) {
   Vector<D, Real> result;
@@ -73,7 +73,7 @@ struct ForceOnBonds {
     Vector<D, Real> const u = r * inverse;
     auto const pair = known.pair(distance);
     auto const bond = known.bond(distance);
-    // Of both centres together, whose bonds are u and -u.
+    // Sum for both centres, whose bonds are u and -u.
     Real spread[D * (D + 1) / 2];
     for (int k = 0; k < D * (D + 1) / 2; ++k) spread[k] = p.spread[k] + q.spread[k];
     Vector<D, Real> const lean = (p.lean - q.lean) * c;

@@ -1,4 +1,4 @@
-// What embedded atoms answer to the density around them: the slope of their energy.
+// Between the passes: the derivative of each atom's embedding energy with respect to its density.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/kernel_dispatch.hpp>
 #include <boltzmann/schemes/many_body/atom_point.hpp>
@@ -12,7 +12,7 @@
 namespace boltzmann {
 namespace {
 
-constexpr double left_at_cutoff = 1e-3;  // of what is at half of it
+constexpr double left_at_cutoff = 1e-3;  // relative to the value at half of the cut-off
 
 template <template <int, class> class Point>
 std::unique_ptr<AnyEnsemble> points_in(int dimension) {
@@ -32,8 +32,8 @@ std::string names_of(EmbeddedAtoms const& atoms) {
   return names;
 }
 
-/// Densities are rounded to it, so that their sums are exact: far below those of neighbours, and so large that what a
-/// collision adds fits.
+/// Densities are rounded to this quantum, so that their sums are exact. It is far below the contributions of
+/// neighbours, and large enough that sums in a collision fit.
 double density_quantum(EmbeddedAtoms const& atoms) {
   double largest = 0;
   for (std::size_t a = 0; a < atoms.elements().size(); ++a)
@@ -91,7 +91,7 @@ void EmbeddedAtomScheme::answer(Atoms const& atoms) const {
     energy.resize(density.size()), slope.resize(density.size());
     atoms_.elements()[element].embedding->at(density.data(), density.size(), energy.data(), slope.data());
     for (std::size_t m = 0; m < members.size(); ++m) {
-      atoms.answers[members[m]] = density[m] > 0 ? slope[m] : 0;  // nobody is near: nobody feels it
+      atoms.answers[members[m]] = density[m] > 0 ? slope[m] : 0;  // without neighbours, the slope affects no other atom
       if (atoms.energies) atoms.energies[members[m]] = energy[m];
     }
   }

@@ -1,4 +1,4 @@
-// EmbeddedAtomScheme: metals by embedded atoms.
+// EmbeddedAtomScheme: metals with embedded-atom potentials.
 //
 //   EmbeddedAtomScheme scheme(box, EmbeddedAtoms(SuttonChen{...}, {.cutoff = 7.2}));
 //   scheme.add(copper);
@@ -13,11 +13,11 @@ namespace boltzmann {
 
 class EmbeddedAtomScheme final : public ManyBodyScheme {
  public:
-  /// Error as of ManyBodyScheme, from the cut-off of the atoms.
+  /// Throws Error as ManyBodyScheme does for the cut-off of the atoms.
   EmbeddedAtomScheme(Box box, EmbeddedAtoms atoms);
 
-  /// Adds atoms of an element; of one that isn't named there must be one alone. Ensembles may be of one element. Error if
-  /// it isn't known, or no force moves them.
+  /// Adds atoms of an element. The name may be omitted if there is only one element. Several ensembles may have the
+  /// same element. Throws Error if the element is unknown, or forces do not move the particles.
   void add(AnyEnsemble& ensemble, std::string_view element = "");
 
   EmbeddedAtoms const& atoms() const { return atoms_; }

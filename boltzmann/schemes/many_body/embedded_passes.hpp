@@ -1,5 +1,5 @@
-// The passes of embedded atoms over pairs: densities, then forces. Each is a law: what q contributes to p. Both look ahead
-// (over_near.hpp): where the splines of a pair stand is found first.
+// The passes over pairs for embedded atoms: densities, then forces. Each is a law: the contribution of q to p. Both
+// compute the addresses of a pair's splines ahead of their use (over_near.hpp).
 #pragma once
 
 #include <boltzmann/laws/embedded_tables.hpp>
@@ -20,19 +20,19 @@ struct AtomDensity {
 template <class Real>
 AtomDensity(Real) -> AtomDensity<Real>;
 
-/// Where the splines of pairs stand.
+/// The location of a pair's spline coefficients.
 template <class Real>
 struct SplinePlace {
-  Real square;  ///< of the distance
-  Real past;    ///< how far it is past the knot
-  Real offset;  ///< of the coefficients, an integer
+  Real square;  ///< distance squared
+  Real past;    ///< distance from the knot
+  Real offset;  ///< offset of the coefficients, an integer
 };
 
-/// An atom seen from another one.
+/// A neighbour as seen from an atom.
 template <int D, class Real = double>
 struct SeenAtom : Particle<D, Real> {
-  Real slope;                 ///< of both; in an alloy, of the one that is seen
-  Real square, past, offset;  ///< as those of SplinePlace
+  Real slope;                 ///< of both atoms; in an alloy, of the neighbour
+  Real square, past, offset;  ///< as in SplinePlace
 };
 
 namespace detail {
@@ -40,7 +40,7 @@ namespace detail {
 template <class P>
 using real_of = std::remove_cvref_t<decltype(std::declval<P>().position[0])>;
 
-/// `alloy`: the elements of the pair choose among the splines of all.
+/// With `alloy`, the elements of the pair select the splines.
 template <bool alloy, class P, class Place>
 [[gnu::always_inline]] inline void find_splines(EmbeddedTables const& tables, P const& p, P const& q, Place& place) {
   using Real = real_of<P>;
@@ -50,7 +50,7 @@ template <bool alloy, class P, class Place>
   place.past = place.square - tables.knots.template knot<W>(row);
   auto offset = (row - tables.knots.first_row) << (alloy ? 4 : 3);
   if constexpr (alloy) {
-    // Elements of the sentinel are no numbers; what they would choose is masked.
+    // The elements of sentinel rows are not numbers; lanes with them are masked.
     Real const pair = p.element * static_cast<double>(tables.elements) + q.element;
     Real const known = select(pair == pair, pair, Real(0.0));
     offset += __builtin_convertvector(known.native, Bits<W>) * tables.pair_stride;
@@ -58,7 +58,7 @@ template <bool alloy, class P, class Place>
   place.offset = from_bits<W>(offset);
 }
 
-/// Four coefficients of the splines there.
+/// Loads four coefficients of the splines.
 template <class Place>
 [[gnu::always_inline]] inline auto coefficients(EmbeddedTables const& tables, Place const& place, int block) {
   using Real = std::remove_cvref_t<decltype(place.offset)>;

@@ -1,4 +1,4 @@
-// The kernels of atoms that feel their surroundings: two passes over lists of neighbours, in 1D, 2D and 3D.
+// The kernels of atoms with many-body forces: two passes over neighbour lists, in 1D, 2D and 3D.
 #pragma once
 
 #include <boltzmann/core/instruction_set.hpp>
@@ -6,8 +6,8 @@
 
 namespace boltzmann {
 
-/// The first pass writes which entries of a row are within the cut-off, in their order, and pads them; there is room for
-/// the row and its padding.
+/// The first pass stores the entries of a row that are within the cut-off, in order, with padding. The caller allocates
+/// room for the row and its padding.
 struct AtomTask : PairTask {
   std::uint32_t* const* near = nullptr;
   std::uint32_t* near_length = nullptr;
@@ -16,8 +16,8 @@ struct AtomTask : PairTask {
 
 using AtomKernel = void (*)(void const* law, AtomTask const& task, std::size_t begin, std::size_t end);
 
-/// `law` is what the passes know: EmbeddedTables, or StillingerWeber. Sums are stored in the order of rows, forces are
-/// added by number.
+/// `law` points to the parameters of the passes: EmbeddedTables or StillingerWeber. Sums are stored in the order of
+/// rows, forces by particle number.
 struct ManyBodyKernels {
   AtomKernel sums = nullptr, sums_reversible = nullptr;
   AtomKernel forces = nullptr, forces_reversible = nullptr, measure = nullptr;

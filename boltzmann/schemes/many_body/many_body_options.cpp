@@ -1,4 +1,4 @@
-// The members of embedded atoms and of atoms with bonds with their keys.
+// Keys of embedded atoms and of atoms with bonds.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/laws/embedding_table.hpp>
 #include <boltzmann/schemes/many_body/many_body_options.hpp>
@@ -103,7 +103,7 @@ EmbeddedAtoms embedded_atoms(EmbeddedAtomOptions const& options, UnitSystem cons
   if (options.from) reach.switch_from = *options.from;
   if (options.potential == MetalPotential::gupta) return {options.gupta, reach};
   if (options.potential == MetalPotential::formulas) {
-    // Above all densities but those of hard collisions.
+    // Above all densities except in hard collisions.
     double const greatest = 500 * options.density(options.cutoff / 3);
     if (!(greatest > 0) || !std::isfinite(greatest))
       throw Error(fmt::format("density: {:.6g} at a third of the cut-off; it must be positive there",

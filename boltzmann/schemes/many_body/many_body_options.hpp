@@ -1,4 +1,4 @@
-// Options of atoms that feel their surroundings: what scenarios say of them, with their keys.
+// Options of atoms with many-body forces: the keys in scenarios.
 #pragma once
 
 #include <boltzmann/core/options.hpp>
@@ -12,16 +12,16 @@
 
 namespace boltzmann {
 
-/// Which laws embedded atoms have.
+/// The kinds of embedded-atom potential.
 enum class MetalPotential { sutton_chen, gupta, formulas, file };
 Words<MetalPotential> const& metal_potential_words();
 
-/// Whom they act on, and which elements these are, is read by the reader of the scenario.
+/// The reader of the scenario processes the keys for ensembles and elements.
 struct EmbeddedAtomOptions {
   MetalPotential potential = MetalPotential::sutton_chen;
   SuttonChen sutton_chen{};
   Gupta gupta{};
-  std::function<double(double)> pair, density, embedding;  ///< of formulas, which the reader of the scenario reads
+  std::function<double(double)> pair, density, embedding;  ///< for formulas, which the reader of the scenario parses
   std::string file;
   double cutoff = 0;
   std::optional<double> from, skin;
@@ -29,7 +29,7 @@ struct EmbeddedAtomOptions {
 /// The keys of all potentials, and those of one.
 OptionTable const& embedded_atom_options();
 OptionTable embedded_atom_options(MetalPotential potential);
-/// Error as of EmbeddedAtoms.
+/// Throws Error as EmbeddedAtoms does.
 EmbeddedAtoms embedded_atoms(EmbeddedAtomOptions const& options, UnitSystem const& units);
 
 struct StillingerWeberOptions {

@@ -1,4 +1,4 @@
-// Two passes over one list of all atoms, and what stands between them.
+// Two passes over one neighbour list of all atoms, with a calculation per atom in between.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/exact_sum.hpp>
 #include <boltzmann/schemes/many_body/many_body_scheme.hpp>
@@ -11,8 +11,8 @@
 namespace boltzmann {
 namespace {
 
-constexpr std::size_t atom_grain = 256, copy_grain = 4096;  // atoms of one range
-constexpr double pass_work = 4;                             // of one atom, in atoms that an integrator moves
+constexpr std::size_t atom_grain = 256, copy_grain = 4096;  // atoms per range
+constexpr double pass_work = 4;                             // per atom, in units of atoms moved by an integrator
 
 }  // namespace
 
@@ -60,14 +60,14 @@ void ManyBodyScheme::box_changed() {
   hood_.stale();
 }
 
-/// As many points as particles.
+/// Resizes the points to the number of particles.
 void ManyBodyScheme::count_points() {
   std::size_t count = 0;
   for (auto const& loaded : loaded_) count += loaded.ensemble->size();
   if (points_->size() != count) points_->resize(count);
 }
 
-/// Copies all places into the points. PhysicsFailure if one is not finite.
+/// Copies all positions into the points. Throws PhysicsFailure if one is not finite.
 void ManyBodyScheme::copy_places() {
   count_points();
   auto const D = static_cast<std::size_t>(box().dimension());
@@ -87,7 +87,7 @@ void ManyBodyScheme::copy_places() {
       }
     };
     int const used = threads_for(ensemble.size(), 1, threads());
-    if (division_ && division_->is_whole())  // all are known
+    if (division_ && division_->is_whole())  // all rows are resident
       for_ranges(ensemble.size(), copy_grain, used, copy);
     else
       for_share(ensemble, copy_grain, used, copy);
@@ -126,7 +126,7 @@ AtomTask ManyBodyScheme::task() {
   return task;
 }
 
-/// For all entries that may be read of the rows of a part, and what pads them.
+/// Allocates room for all entries of the rows of a part, and their padding.
 void ManyBodyScheme::make_room(std::size_t part, AtomTask const& task) {
   auto const [begin, end] = parts_[part];
   auto const room_of = [&](std::size_t i) { return (task.length[i] / list_padding + 2) * list_padding; };
@@ -151,7 +151,7 @@ void ManyBodyScheme::run(AtomKernel kernel, Passes const& passes, AtomTask const
   over_parts(pass_work, [&](std::size_t part) { kernel(passes.law, task, parts_[part].begin, parts_[part].end); });
 }
 
-/// What is around each atom, and its answer; `energies`, if asked for, by number.
+/// Sums the surroundings of each atom and computes its answer; stores `energies` by number if not null.
 void ManyBodyScheme::find_answers(Passes const& passes, double* energies) {
   AtomTask sums = task();
   sums_.resize(passes.sums * sums.targets);
@@ -207,7 +207,7 @@ void ManyBodyScheme::add_influences(double) {
   if (!alone) add_to_ensembles();
 }
 
-/// The forces on the points.
+/// Adds the forces on the points to the ensembles.
 void ManyBodyScheme::add_to_ensembles() {
   auto const D = static_cast<std::size_t>(box().dimension());
   double const* force = points_->influence(0);

@@ -1,6 +1,6 @@
-// ManyBodyScheme: atoms that feel their surroundings. A first pass over pairs sums what is around each atom, each atom
-// answers, and a second pass over pairs adds forces that depend on the answers of both. What is summed and answered is
-// said by who derives: embedded atoms, atoms with bonds.
+// ManyBodyScheme: atoms with many-body forces. A first pass over pairs sums the surroundings of each atom. From these
+// sums each atom computes its "answer". A second pass over pairs adds forces that depend on the answers of both atoms.
+// Derived classes define sums and answers: embedded atoms, atoms with bonds.
 #pragma once
 
 #include <boltzmann/neighbours/neighbourhood.hpp>
@@ -18,9 +18,10 @@ class ManyBodyScheme : public Scheme {
  public:
   ~ManyBodyScheme() override;
 
-  /// Beyond it atoms don't feel each other.
+  /// The range of interactions.
   double cutoff() const { return cutoff_; }
-  /// How far atoms may move before lists are rebuilt: lists reach cutoff + skin. Default 0.12 of the cut-off.
+  /// The distance that atoms may move before lists are rebuilt; lists have the range cutoff + skin. Default: 0.12 of
+  /// the cut-off.
   void skin(double length);
 
   bool follows_box() const override { return true; }
@@ -35,7 +36,7 @@ class ManyBodyScheme : public Scheme {
   bool shares_out() const override { return true; }
   bool has_points() const override { return true; }
   void bring_particles() override;
-  /// As many points as there are particles now.
+  /// Resizes the points to the current number of particles.
   void complete(double /*time*/) override { count_points(); }
   void divide(Division* division) override;
   std::size_t bytes() const override;
@@ -44,29 +45,29 @@ class ManyBodyScheme : public Scheme {
   void restore(std::span<double const> state) override;
 
  protected:
-  /// What is known of the passes.
+  /// Parameters of the passes.
   struct Passes {
     ManyBodyKernels kernels;
-    void const* law = nullptr;  ///< what the kernels are given
-    std::size_t sums = 1;       ///< numbers that the first pass sums
-    std::size_t first = 0;      ///< where in a row the answer begins
-    std::size_t answers = 1;    ///< of how many numbers it is
-    double sum_quantum = 0;     ///< to which a reversible form rounds what is summed
+    void const* law = nullptr;  ///< argument of the kernels
+    std::size_t sums = 1;       ///< numbers summed by the first pass
+    std::size_t first = 0;      ///< offset of the answer in a row
+    std::size_t answers = 1;    ///< numbers of an answer
+    double sum_quantum = 0;     ///< quantum to which the reversible form rounds sums
   };
-  /// Some atoms between the passes: rows [0, size).
+  /// A range of atoms between the passes: rows [0, size).
   struct Atoms {
     std::size_t size;
-    double const* rows;  ///< their first blocks, 4 numbers an atom
-    double const* sums;  ///< Passes::sums numbers an atom
-    double* answers;     ///< Passes::answers numbers an atom
-    double* energies;    ///< one number an atom; null: nobody asks
+    double const* rows;  ///< their first blocks, 4 numbers per atom
+    double const* sums;  ///< Passes::sums numbers per atom
+    double* answers;     ///< Passes::answers numbers per atom
+    double* energies;    ///< one number per atom; null: not needed
   };
 
-  /// `points` has no particles yet; behind its rows stand so many blocks for answers. Error if the cut-off is not a
-  /// positive length, longer than a periodic axis, or an axis is a mirror.
+  /// `points` has no particles yet. Its rows have `blocks` further blocks for answers. Throws Error if the cut-off is
+  /// not a positive length or longer than a periodic axis, or an axis is a mirror.
   ManyBodyScheme(Box box, double cutoff, std::unique_ptr<AnyEnsemble> points, std::size_t extra_blocks);
-  /// Adds atoms; `element` stands behind the position in their rows if `Passes::first` leaves room for it. Error unless
-  /// they are moved by forces.
+  /// Adds atoms. `element` is stored after the position in their rows if `Passes::first` leaves room for it. Throws
+  /// Error if forces do not move the particles.
   void add_atoms(AnyEnsemble& ensemble, std::size_t element);
   virtual Passes passes() const = 0;
   virtual void answer(Atoms const& atoms) const = 0;
@@ -91,15 +92,15 @@ class ManyBodyScheme : public Scheme {
 
   double cutoff_, quantum_ = 0;
   std::size_t calculations_ = 0;
-  Division* division_ = nullptr;         // while a run is divided
-  bool brought_ = false;                 // for the calculation that comes
-  std::unique_ptr<AnyEnsemble> points_;  // the places of all atoms, ensemble after ensemble
+  Division* division_ = nullptr;         // set during a divided run
+  bool brought_ = false;                 // rows were exchanged for the next calculation
+  std::unique_ptr<AnyEnsemble> points_;  // the positions of all atoms, ensemble after ensemble
   Neighbourhood hood_;
   std::size_t list_ = 0;
   std::vector<Loaded> loaded_;
   std::vector<double> sums_, answers_;  // in the order of rows
-  std::vector<Stretch> parts_;          // of the rows, each for one thread
-  // Who is near, as the first pass notes it: memory of each part, where a row's begins there and how many there are.
+  std::vector<Stretch> parts_;          // ranges of rows, each for one thread
+  // Neighbours found by the first pass: memory per part, and for each row its offset there and its length.
   std::vector<std::vector<std::uint32_t>> near_of_part_;
   std::vector<std::uint32_t*> near_;
   std::vector<std::uint32_t> near_length_;

@@ -1,5 +1,5 @@
-// The traversals of atoms that feel their surroundings: a first pass over neighbour lists notes who is near, the next ones
-// go over those alone.
+// Traversals for atoms with many-body forces: the first pass over neighbour lists stores the entries within the
+// cut-off, and later passes use only these.
 #pragma once
 
 #include <boltzmann/core/compress.hpp>
@@ -11,12 +11,13 @@ namespace boltzmann {
 
 namespace detail {
 
-/// Notes which entries of a row are near.
+/// Stores the entries of a row that are within the cut-off.
 class NearEntries {
  public:
   [[gnu::always_inline]] NearEntries(AtomTask const& task, std::size_t i) : first_(task.near[i]), next_(first_) {}
 
-  /// Those among so many entries, up to 64, whose bits are set. `entries` are read by eight, as rows are padded.
+  /// Appends those of up to 64 entries whose bits are set. `entries` are read in groups of eight, because rows are
+  /// padded.
   [[gnu::always_inline]] void add(std::uint32_t const* entries, int count, std::uint64_t bits) {
     constexpr int at_once = 8;
     static_assert(at_once <= list_padding);
@@ -35,8 +36,8 @@ class NearEntries {
   std::uint32_t *first_, *next_;
 };
 
-/// Laws whose numbers stand where only the distance tells: `law.look(p, q, seen)` notes what they need to know of
-/// q, and law(p, seen) is what q contributes to p, which is then at the origin.
+/// For laws whose data are addressed by the distance: `law.look(p, q, seen)` stores what they need from q, and law(p,
+/// seen) returns the contribution of q to p, with p at the origin.
 template <class Law>
 inline constexpr bool looks_ahead = requires {
   Law::looks_ahead;
@@ -52,13 +53,14 @@ struct seen_by<Law, Q> {
   using type = typename Law::template Seen<Q::dimension>;
 };
 
-/// `first`: over the entries of lists, noting who is near.
+/// `first`: traverses whole lists and stores the near entries.
 template <Pass pass, bool first, int W, class P, class Law>
 [[gnu::flatten]] void over_near(void const* known, AtomTask const& task, std::size_t begin, std::size_t end) {
   using Known = std::remove_cvref_t<decltype(Law::known)>;
   using Seen = typename seen_by<Law, P>::type;
   using S = Sum<pass, W, P, Seen, Law>;
-  // So many packs are seen before the first of them is summed: no load waits for its address.
+  // Number of packs whose addresses are computed before the first of them is summed, so that no load waits for its
+  // address.
   constexpr int ahead = 64 / W;
   Law const law{*static_cast<Known const*>(known)};
   double const cutoff2 = task.cutoff2;

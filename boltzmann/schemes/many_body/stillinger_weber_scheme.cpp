@@ -1,4 +1,4 @@
-// What is around an atom with bonds: their sums (bonded_passes.hpp), which are its answer.
+// The answer of an atom with bonds is its sums (bonded_passes.hpp).
 #include <boltzmann/core/kernel_dispatch.hpp>
 #include <boltzmann/schemes/many_body/atom_point.hpp>
 #include <boltzmann/schemes/many_body/stillinger_weber_scheme.hpp>
@@ -21,7 +21,7 @@ std::unique_ptr<AnyEnsemble> bonded_points(int dimension) {
   return std::make_unique<Ensemble<EmbeddedPoint<3>>>(name);
 }
 
-/// Of sum g, sum g u and the upper half of sum g u u.
+/// The size of sum g, sum g u and the upper half of sum g u u.
 std::size_t answers_in(std::size_t D) { return 1 + D + D * (D + 1) / 2; }
 
 }  // namespace

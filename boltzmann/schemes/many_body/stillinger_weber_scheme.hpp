@@ -1,5 +1,4 @@
-// StillingerWeberScheme: silicon and its like, by bonds at given angles.
-//
+// StillingerWeberScheme: silicon and similar materials, with bonds at preferred angles.
 //   StillingerWeberScheme scheme(box, StillingerWeber::silicon(units));
 //   scheme.add(silicon);
 #pragma once
@@ -11,10 +10,10 @@ namespace boltzmann {
 
 class StillingerWeberScheme final : public ManyBodyScheme {
  public:
-  /// Error if a number of the law can't be, and as of ManyBodyScheme, from its cut-off.
+  /// Throws Error if a parameter of the law is invalid, and as ManyBodyScheme does for its cut-off.
   StillingerWeberScheme(Box box, StillingerWeber const& law);
 
-  /// Adds atoms; those of all ensembles are of one kind. Error if no force moves them.
+  /// Adds atoms. All ensembles have atoms of one kind. Throws Error if forces do not move the particles.
   void add(AnyEnsemble& ensemble) { add_atoms(ensemble, 0); }
 
   StillingerWeber const& law() const { return law_; }

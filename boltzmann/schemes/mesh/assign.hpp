@@ -1,5 +1,5 @@
-// Assignment and interpolation for particles as they stand in their ensembles (section 4.4, steps 1 and 4), by
-// B-splines of any order: the same weights both ways.
+// Assignment and interpolation for the particles in ensembles (section 4.4, steps 1 and 4), by B-splines of any order,
+// with the same weights in both directions.
 #pragma once
 
 #include <boltzmann/schemes/mesh/assign_task.hpp>
@@ -10,7 +10,7 @@
 
 namespace boltzmann::detail {
 
-/// Where a particle is on the mesh. False if it is not in the box.
+/// Finds the position of a particle on the mesh. Returns false if it is not in the box.
 template <int D, int p>
 [[gnu::always_inline]] inline bool place(AssignTask const& task, double const* position, std::size_t& first,
                                          double (&weights)[D][p]) {
@@ -20,9 +20,9 @@ template <int D, int p>
     double s = (position[a] - task.low[a]) * task.per_length[a];
     auto const n = static_cast<double>(task.cells[a]);
     if (task.periodic[a] && !(s >= 0 && s < n)) s -= n * std::floor(s / n);
-    // Within rounding of an edge a particle is on it.
+    // A particle within rounding of an edge counts as on the edge.
     inside = inside && s >= -1e-9 * n && s <= n * (1 + 1e-9);
-    double const kept = s >= 0 ? (s <= n ? s : n) : 0;  // NaN is not inside, and reads nothing wild
+    double const kept = s >= 0 ? (s <= n ? s : n) : 0;  // also maps NaN into the mesh, so that no address is invalid
     double const t = p % 2 == 1 ? kept + 0.5 : kept;
     double const whole = std::floor(t);
     node[a] = static_cast<std::size_t>(whole);
@@ -32,7 +32,7 @@ template <int D, int p>
   return inside;
 }
 
-/// Calls function(first node of the row, weight of the row) for every row of nodes along x that a particle meets.
+/// Calls function(first node of the row, weight of the row) for every row of nodes along x in the range of a particle.
 template <int D, int p, class Function>
 [[gnu::always_inline]] inline void rows_of(AssignTask const& task, std::size_t first, double const (&weights)[D][p],
                                            Function const& function) {

@@ -1,4 +1,4 @@
-// What a kernel of assignment and interpolation is given, as plain memory: particles as rows, the mesh with its ghosts.
+// The arguments of assignment and interpolation kernels, as plain memory: particles as rows, the mesh with its ghosts.
 #pragma once
 
 #include <boltzmann/core/instruction_set.hpp>
@@ -21,10 +21,10 @@ struct AssignTask {
   std::int64_t* counts = nullptr;  ///< assignment: sums of strength times weight, in units of 1 / per_strength
   double per_strength = 1;
 
-  int components = 0;  ///< interpolation: arrays of the field and what is made of them at each particle
+  int components = 0;  ///< interpolation: arrays of the field, and the result at each particle
   double const* field[4] = {};
-  double* result = nullptr;  ///< `components` numbers a particle, each strength times what is there
-  bool overwrite = true;     ///< stored, else added
+  double* result = nullptr;  ///< `components` numbers per particle: strength times interpolated value
+  bool overwrite = true;     ///< true: store; false: add
 };
 
 struct AssignResult {

@@ -1,5 +1,5 @@
-// A mesh over the ranks of a team: each counts its own particles, sums of integers have no order, and each solves a part
-// of the mesh.
+// A mesh divided among the ranks of a team. Each rank counts its own particles, and solves a part of the mesh. Sums of
+// integers do not depend on the order.
 #include <boltzmann/core/threads.hpp>
 #include <boltzmann/schemes/mesh/mesh_work.hpp>
 
@@ -12,8 +12,8 @@
 namespace boltzmann {
 namespace {
 
-// A mesh of fewer nodes is solved sooner than ranks have told each other of their parts. Whole steps wait for others twice
-// otherwise, and have so little else to do that it has to be larger.
+// Smaller meshes are solved faster on each rank than parts can be exchanged. Whole steps would wait for other ranks
+// twice, with little other work, so their threshold is higher.
 constexpr std::size_t nodes_worth_dividing = 1U << 14U, of_whole_steps = 1U << 19U;
 
 }  // namespace
@@ -34,7 +34,7 @@ void MeshScheme::bring_particles() {
   if (!pairs_.ensembles().empty()) pairs_.bring_particles();
 }
 
-/// Strengths of this rank's particles as they are now; where any rank has others than before, those of all.
+/// Updates the strengths of this rank's particles. If they have changed on any rank, exchanges those of all.
 void MeshScheme::agree_on_strengths(Work& work) {
   bool changed = !agreed_;
   for (auto const& loaded : loaded_)
@@ -47,7 +47,7 @@ void MeshScheme::agree_on_strengths(Work& work) {
   work.per_strength = scale_of_counts();
 }
 
-/// Those that solve the mesh together; null: each solves all of it.
+/// The ranks that solve the mesh together; null: each solves all of it.
 SolvingRanks const* MeshScheme::solving_ranks(Work& work, bool whole_steps) const {
   std::size_t const least = whole_steps ? of_whole_steps : nodes_worth_dividing;
   if (!division_ || work.grid.dimension == 1 || work.grid.size() < least) return nullptr;
@@ -55,7 +55,7 @@ SolvingRanks const* MeshScheme::solving_ranks(Work& work, bool whole_steps) cons
   return &work.ranks;
 }
 
-/// Of the planes of nodes, those that this rank's particles meet, and some beside them.
+/// The planes of nodes in the range of this rank's particles, with a margin.
 std::vector<char> MeshScheme::planes_read(Work const& work) const {
   int const a = work.grid.dimension - 1;
   std::size_t const ghosts = work.ghosts.nodes(a);
@@ -80,12 +80,12 @@ std::vector<char> MeshScheme::planes_read(Work const& work) const {
   return read;
 }
 
-/// Tells all ranks which planes each of them reads.
+/// Exchanges which planes each rank reads.
 void MeshScheme::learn_readers(Work& work) const {
   auto const mine = planes_read(work);
   Team& team = *work.ranks.team;
   auto const ranks = static_cast<std::size_t>(team.size()), words = (mine.size() + 63) / 64;
-  std::vector<std::int64_t> bits(ranks * words);  // only this rank's are set here
+  std::vector<std::int64_t> bits(ranks * words);  // only the bits of this rank are set here
   for (std::size_t l = 0; l < mine.size(); ++l)
     bits[static_cast<std::size_t>(team.rank()) * words + l / 64] |= std::int64_t{mine[l]} << l % 64;
   team.sum(bits);
@@ -95,7 +95,7 @@ void MeshScheme::learn_readers(Work& work) const {
       work.ranks.reads[r][l] = static_cast<char>(bits[r * words + l / 64] >> l % 64 & 1);
 }
 
-/// What each rank has counted in the planes that it reads goes to those who solve for them.
+/// Sends the counts of each plane to the rank that solves it.
 void MeshScheme::sum_in_planes(Work& work, std::int64_t* counts) const {
   Team& team = *work.ranks.team;
   auto const rank = static_cast<std::size_t>(team.rank()), ranks = static_cast<std::size_t>(team.size());
@@ -128,7 +128,8 @@ void MeshScheme::sum_in_planes(Work& work, std::int64_t* counts) const {
       });
 }
 
-/// deposit() in a divided run, for all ranks: the solution is read by all, or each needs what its own particles feel.
+/// deposit() in a divided run; a collective call. Either all ranks need the solution, or each needs the field at its
+/// own particles.
 SolvingRanks const* MeshScheme::deposit_share(Work& work, Whose readers) {
   agree_on_strengths(work);
   auto const outside = count(work, work.per_strength, Whose::own);

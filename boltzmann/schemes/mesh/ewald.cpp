@@ -1,4 +1,4 @@
-// Ewald sums in one, two and three dimensions, written plainly from the textbook.
+// Ewald sums in one, two and three dimensions, in the plain form of textbooks.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/exact_sum.hpp>
 #include <boltzmann/core/pack.hpp>
@@ -18,7 +18,7 @@ namespace boltzmann {
 namespace {
 
 constexpr double euler_gamma = std::numbers::egamma;
-// The near sum ends at alpha r = reach, the far one at k = 2 alpha reach: exp(-reach^2) = 4e-18.
+// The short-range sum ends at alpha r = reach, the long-range one at k = 2 alpha reach: exp(-reach^2) = 4e-18.
 constexpr double reach = 6.35;
 
 /// Potential and -(1/r) d phi/dr of a strength 1 in its cloud, for C = 1.
@@ -39,7 +39,7 @@ Near near(double square, double alpha) {
   }
 }
 
-/// The near potential of a strength at its own place less that of the bare strength, for C = 1.
+/// The short-range potential of a strength at its own place, minus that of the bare strength, for C = 1.
 template <int D>
 double own(double alpha) {
   if constexpr (D == 1)
@@ -145,7 +145,7 @@ void add_far(Totals<D>& total, std::span<Vector<D> const> x, std::span<double co
   }
   std::vector<Complex> term(n);
   std::array<int, 3> m{};
-  // Of k and -k only one: the last component that is not zero is positive.
+  // Only one of k and -k: the last component that is not zero is positive.
   for (m[2] = 0; m[2] <= most[2]; ++m[2])
     for (m[1] = m[2] > 0 ? -most[1] : 0; m[1] <= most[1]; ++m[1])
       for (m[0] = m[2] > 0 || m[1] > 0 ? -most[0] : 1; m[0] <= most[0]; ++m[0]) {
@@ -178,8 +178,8 @@ EwaldSums<D> ewald_sums(std::span<Vector<D> const> positions, std::span<double c
   std::size_t const n = positions.size();
   double const volume = volume_of(edges);
   if (alpha == 0) {
-    // As many pairs within reach/alpha as products of a particle and half a wave vector within 2 alpha reach; one of
-    // the former takes as long as four of the latter.
+    // Choose alpha for equal cost: pairs within reach/alpha, and products of a particle with half of the wave vectors
+    // below 2 alpha reach. One of the former takes as long as four of the latter.
     double const count = std::max(4.0 * static_cast<double>(n), 1.0);
     alpha = root_pi * std::pow(count / (volume * volume), 0.5 / D);
   }

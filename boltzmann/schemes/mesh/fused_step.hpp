@@ -1,5 +1,5 @@
-// Whole steps of particles on a mesh: gather, kick, turn, drift and deposit in one pass over columns that are sorted in
-// space. Positions are fixed-point numbers, deposits are integers: no sum depends on its order.
+// Whole steps of particles on a mesh: gather, kick, rotate, drift and deposit in one pass over columns that are sorted
+// in space. Positions are fixed-point numbers and deposits are integers, so no sum depends on its order.
 #pragma once
 
 #include <boltzmann/core/pack.hpp>
@@ -17,10 +17,10 @@ namespace boltzmann::detail {
 template <class Real>
 using Fixed = typename StepTask<Real>::Fixed;
 
-/// Particles that are treated together: their weights and fields stay in the first-level cache.
+/// Particles in a block: their weights and fields stay in the first-level cache.
 inline constexpr std::size_t step_block = 128;
 
-/// Numbers side by side in memory, one register or a part of one.
+/// V numbers adjacent in memory: one register or a part of one.
 template <class Number, int V>
 struct side_by_side {
   typedef Number type __attribute__((vector_size(V * sizeof(Number)), may_alias));
@@ -42,12 +42,12 @@ template <class Real, int W, std::size_t... Lane>
   odd = __builtin_shufflevector(low.native, high.native, (2 * Lane + 1)...);
 }
 
-/// V packs, number k of particle i in lane i of pack k, from and to W groups of V numbers side by side.
+/// Transposes V packs (number k of particle i is in lane i of pack k) to and from W groups of V adjacent numbers.
 template <int V, class Real, int W>
 [[gnu::always_inline]] inline void to_groups(Pack<Real, W>* packs, Real* memory) {
   constexpr auto lanes = std::make_index_sequence<static_cast<std::size_t>(W)>{};
   if constexpr (V > 1) {
-    // The first and second half of the numbers interleave last.
+    // The halves of the numbers are interleaved last.
     Pack<Real, W> mixed[V];
     for (int k = 0; k < V / 2; ++k) interleave(packs[k], packs[k + V / 2], mixed[2 * k], mixed[2 * k + 1], lanes);
     if constexpr (V == 2) {
@@ -77,7 +77,7 @@ template <int V, class Real, int W>
   }
 }
 
-/// Fixed-point and floating numbers, lane by lane.
+/// Conversion between fixed-point and floating-point numbers, lane by lane.
 template <class Real, int W>
 struct FixedPack {
   using Integer = Fixed<Real>;
@@ -89,7 +89,7 @@ struct FixedPack {
   [[gnu::always_inline]] static void store(Integer* memory, Native value) {
     *reinterpret_cast<SideBySide<Integer, W>*>(memory) = value;
   }
-  /// An integer of at least 0 and below 2^51 (float: 2^31) as a number.
+  /// Converts an integer in [0, 2^51) (float: 2^31).
   [[gnu::always_inline]] static Pack<Real, W> number(Native x) {
     if constexpr (std::is_same_v<Real, double>) {
       auto const high = std::bit_cast<std::int64_t>(0x1p52);
@@ -110,7 +110,7 @@ struct FixedPack {
   }
 };
 
-/// Lanes side by side that become integers of 64 bits; |x| below 2^51 (float: 2^31).
+/// Adjacent lanes that become integers of 64 bits; |x| below 2^51 (float: 2^31).
 template <int V, class Real>
 [[gnu::always_inline]] inline auto counts(SideBySide<Real, V> x) {
   if constexpr (std::is_same_v<Real, double>) {
@@ -122,8 +122,8 @@ template <int V, class Real>
   }
 }
 
-/// x as it is, rounded: of a sum of two products only the other one can then be fused with the addition, in every
-/// kernel alike. (Finishing a step and going on with it must give the same bits.)
+/// Rounds x before the addition, so that only the other product of a sum can be fused with it, in every kernel alike.
+/// (Finishing a step and continuing after it must give the same bits.)
 template <class Native>
 [[gnu::always_inline]] inline Native rounded_lanes(Native x) {
 #if __has_builtin(__builtin_assoc_barrier)
@@ -138,9 +138,10 @@ template <class Real, int W>
 }
 
 enum class StepPass {
-  deposit,  ///< only deposits
-  advance,  ///< a step
-  finish,   ///< the second kick of a step, all into the rows, and the first kick of the next step by the same field
+  deposit,  ///< only deposit
+  advance,  ///< one step
+  finish,   ///< complete the second kick of a step, write the rows, and do the first kick of the next step with the
+            ///< same field
 };
 
 template <StepPass pass, int D, int p, class Real, int W>
@@ -150,9 +151,9 @@ class FusedStep {
   using Integer = Fixed<Real>;
   using Number = Pack<Real, W>;
   using Whole = FixedPack<Real, W>;
-  static constexpr int P = slot_width(p);                       // nodes of a slot along x
-  static constexpr int V = slot_numbers(D, p);                  // numbers of a slot of the field
-  static constexpr int rows = D == 1 ? 1 : D == 2 ? p : p * p;  // of nodes along x
+  static constexpr int P = slot_width(p);                       // nodes in a slot along x
+  static constexpr int V = slot_numbers(D, p);                  // numbers in a slot of the field
+  static constexpr int rows = D == 1 ? 1 : D == 2 ? p : p * p;  // rows of nodes along x
 
   explicit FusedStep(Task const& task) : task_(task) {}
 
@@ -188,7 +189,7 @@ class FusedStep {
   bool failed() const { return any(failed_); }
 
  private:
-  /// Which slots the particles of a block meet, and with which weights.
+  /// Finds the slots and weights of the particles of a block.
   [[gnu::always_inline]] void locate(std::size_t block, std::size_t count) {
     Integer const mask = (Integer(1) << task_.bits) - 1;
     Integer const half = p % 2 == 1 ? Integer(1) << (task_.bits - 1) : Integer(0);
@@ -217,7 +218,7 @@ class FusedStep {
     }
   }
 
-  /// Calls function(slot offset of the row, k_y, k_z) for every row of nodes along x that a particle meets.
+  /// Calls function(slot offset of the row, k_y, k_z) for every row of nodes along x in the range of a particle.
   template <class Function>
   [[gnu::always_inline]] void each_row(Function const& function) const {
     if constexpr (D == 1) {
@@ -269,7 +270,7 @@ class FusedStep {
     }
   }
 
-  /// The field at W particles of a block: what has been gathered, weighed along x.
+  /// The field at W particles of a block: the gathered values, weighted along x.
   [[gnu::always_inline]] void feel(std::size_t i, Number* e) const {
     Number field[V], along[P];
     from_groups<V>(gathered_ + i * V, field);
@@ -310,14 +311,14 @@ class FusedStep {
     for (int a = 0; a < D; ++a) v[a] += dv[a];
   }
 
-  /// The lanes that hold particles, if so many are left.
+  /// A mask of the lanes that hold particles.
   [[gnu::always_inline]] static Mask<Real, W> particles(std::size_t left) {
     Number lane;
     for (int l = 0; l < W; ++l) lane.native[l] = static_cast<Real>(l);
     return lane < Number(static_cast<Real>(left < W ? left : W));
   }
 
-  /// Moves W particles from `first` on; the lanes that have left the mesh.
+  /// Moves W particles, starting at `first`. Returns the lanes that have left the mesh.
   [[gnu::always_inline]] Mask<Real, W> drift(std::size_t first, Number* v) {
     using Native = typename Whole::Native;
     Mask<Real, W> failed = Number(Real(0)) != Number(Real(0));
@@ -331,14 +332,14 @@ class FusedStep {
           break;
         case StepBoundary::reflects: {
           Native const below = x<0, above = x> end;
-          x = below ? -x : above ? end - (x - end) : x;  // 2 end may not fit
+          x = below ? -x : above ? end - (x - end) : x;  // the integer 2 end may overflow
           v[a] = select(Mask<Real, W>{below | above}, -v[a], v[a]);
           break;
         }
         case StepBoundary::ends:
           break;
       }
-      // Whoever is still outside has failed; it must not write outside the mesh.
+      // Particles that are still outside have failed. Clamp them, so that they do not write outside the mesh.
       Native const outside = (x < 0) | (x > end);
       failed = failed | Mask<Real, W>{outside};
       Whole::store(task_.position[a] + first, outside ? Native{} : x);
@@ -351,7 +352,8 @@ class FusedStep {
     using Counts = SideBySide<std::int64_t, P>;
     auto const* weights = reinterpret_cast<Weights const*>(along_x_);
     for (std::size_t i = 0; i < count; ++i) {
-      // Neighbours in memory are mostly in the same cell: with copies none waits for the sum of the one before.
+      // Particles adjacent in memory are mostly in the same cell. Copies of the density avoid waiting for the previous
+      // sum.
       auto* density = reinterpret_cast<Counts*>(task_.density) + static_cast<std::size_t>(slot_[i]) * task_.copies +
                       (i & (task_.copies - 1));
       Weights const along = weights[i] * task_.charge;
@@ -364,9 +366,9 @@ class FusedStep {
     }
   }
 
-  /// The particles of a block as numbers of rows, while they are in the cache.
+  /// Writes the particles of a block to the rows, while they are in the cache.
   [[gnu::always_inline]] void write_rows(std::size_t block, std::size_t count, std::size_t end) {
-    constexpr std::size_t ahead = 32;  // rows stand in the user's order: each may be a miss
+    constexpr std::size_t ahead = 32;  // rows are in the user's order, so each may be a cache miss
     using Wide = SideBySide<double, W>;
     for (int a = 0; a < D; ++a)
       for (std::size_t i = 0; i < count; i += W)
@@ -385,7 +387,7 @@ class FusedStep {
       }
     }
   }
-  /// Integers of at least 0 and below 2^51.
+  /// Integers in [0, 2^51).
   [[gnu::always_inline]] static SideBySide<double, W> exact(typename Whole::Native x) {
     if constexpr (std::is_same_v<Real, double>)
       return Whole::number(x).native;
@@ -393,14 +395,14 @@ class FusedStep {
       return __builtin_convertvector(x, SideBySide<double, W>);
   }
 
-  Task const task_;  // a copy: nothing that is stored through pointers can change it
+  Task const task_;  // a copy, so that stores through pointers cannot change it
   Number fastest_ = Number(Real(0));
   Mask<Real, W> failed_ = Number(Real(0)) != Number(Real(0));
   alignas(64) Integer slot_[step_block];
   alignas(64) Real along_x_[step_block * P];
   alignas(64) Real across_[D == 1 ? 1 : D - 1][p][step_block];
   alignas(64) Real gathered_[step_block * V];
-  alignas(64) Real now_[pass == StepPass::finish ? D : 1][step_block];  // velocities, between two steps
+  alignas(64) Real now_[pass == StepPass::finish ? D : 1][step_block];  // velocities at the time between two steps
   alignas(64) double place_[pass == StepPass::finish ? D : 1][step_block];
 };
 

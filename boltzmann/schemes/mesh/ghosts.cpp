@@ -1,4 +1,4 @@
-// What stands on the nodes beyond the ends of a mesh, by the boundary there.
+// Ghost values beyond the ends of a mesh, for each boundary condition.
 #include <boltzmann/core/threads.hpp>
 #include <boltzmann/schemes/mesh/ghosts.hpp>
 #include <boltzmann/schemes/mesh/spline.hpp>
@@ -17,7 +17,7 @@ void add(std::int64_t* to, std::int64_t const* from, std::size_t count, double f
 
 enum class Reflection { value, normal, mirror };
 
-/// A node of an axis of n cells with walls. A mesh of few cells may be reflected more than once.
+/// Reflects a node of an axis of n cells with walls. On a mesh of few cells this may take more than one reflection.
 Ghosts::Term reflect(std::int64_t node, std::int64_t n, FieldEnds const& ends, Reflection how) {
   Ghosts::Term term;
   while (node < 0 || node > n) {
@@ -77,7 +77,7 @@ void Ghosts::row(double const* values, int c, std::size_t j, std::size_t k, doub
   auto const mesh_row = [&](std::size_t at_y, std::size_t at_z) { return values + (at_z * my + at_y) * mx; };
   double const* from = mesh_row(y.node, z.node);
   double const factor = y.factor * z.factor;
-  // Walls have a value of their own only for the component across them: potential and tangential field are zero there.
+  // Only the normal component has a separate value at walls; potential and tangential field are zero there.
   double const low = c == 1 ? y.low * z.factor : c == 2 ? z.low * y.factor : 0;
   double const high = c == 1 ? y.high * z.factor : c == 2 ? z.high * y.factor : 0;
   if (factor != 1 || low != 0 || high != 0) {
@@ -106,7 +106,7 @@ void Ghosts::fold_planes(std::int64_t* counts) const { fold_planes(counts, terms
 
 void Ghosts::fold_planes(std::int64_t* counts, Terms const& terms) const {
   int const a = dimension_ - 1;
-  if (a == 0) return;  // its planes are single nodes, and belong to a row
+  if (a == 0) return;  // its planes are single nodes within a row
   auto const to = [&](std::size_t node) { return counts + place(a, node) * plane(); };
   for (std::size_t g = 0; g < nodes(a); ++g) {
     if (own(a, g)) continue;
@@ -135,7 +135,7 @@ void Ghosts::fold_in_planes(std::int64_t* counts, double unit, std::vector<doubl
 
 void Ghosts::fold_in_planes(std::int64_t* counts, double unit, std::vector<double>& density, int threads,
                             std::size_t first, std::size_t last, Terms const& terms) const {
-  // One axis after the other, the last first: rows are then whole pieces of memory until x.
+  // Fold one axis after the other, the last first: until x, rows are contiguous in memory.
   std::size_t const nx = nodes(0), ny = nodes(1);
   if (dimension_ == 3)
     for (std::size_t l = first; l < last; ++l) {

@@ -1,4 +1,5 @@
-// Ghost nodes: nodes beyond the ends of a mesh, which the particles near an end also meet, and what they stand for.
+// Ghost nodes: nodes beyond the ends of a mesh, in the range of particles near an end, and the nodes that they
+// represent.
 #pragma once
 
 #include <boltzmann/schemes/mesh/poisson.hpp>
@@ -10,11 +11,11 @@
 
 namespace boltzmann {
 
-/// The nodes that particles in a box meet with an order of assignment: those of the mesh with some more at both ends of
-/// each axis. Node j of the box's own is number j + before.
+/// The nodes in the range of particles in a box, for an order of assignment: those of the mesh and some more at both
+/// ends of each axis. Node j of the box has the number j + before.
 class Ghosts {
  public:
-  /// `cells` and `ends` of the box; open axes have no ghosts: there the mesh itself is made wider.
+  /// `cells` and `ends` of the box. Open axes have no ghosts; there the mesh itself is extended.
   Ghosts(int dimension, std::array<std::size_t, 3> const& cells, std::array<FieldEnds, 3> const& ends, int order);
 
   int dimension() const { return dimension_; }
@@ -26,54 +27,54 @@ class Ghosts {
   std::size_t nodes(int axis) const { return terms_[axis].size(); }
   std::size_t size() const { return nodes(0) * nodes(1) * nodes(2); }
 
-  /// What stands for a value beyond the ends: factor times the value on a node of the mesh, plus low (high) times that
-  /// on the first (last) one.
+  /// A value beyond the ends: factor times the value on a node of the mesh, plus low (high) times that on the first
+  /// (last) one.
   struct Term {
     std::uint32_t node = 0;
     double factor = 1, low = 0, high = 0;
   };
-  /// For counts, a potential, and components of a field along other axes. Beyond a Neumann end the mirror image has the
-  /// same sign. Beyond a Dirichlet end the value is extrapolated, v(-x) = 2 v(0) - v(x): for counts this keeps their sum
+  /// For counts, a potential, and tangential components of a field. Beyond a Neumann end the mirror image has the same
+  /// sign. Beyond a Dirichlet end the value is extrapolated, v(-x) = 2 v(0) - v(x). For counts this conserves their sum
   /// and their dipole moment.
   Term const& term(int axis, std::size_t g) const { return terms_[axis][g]; }
-  /// For the component of a field along the axis itself: beyond a Neumann end it changes its sign.
+  /// For the normal component of a field: it changes sign beyond a Neumann end.
   Term const& normal_term(int axis, std::size_t g) const { return normal_terms_[axis][g]; }
-  /// The node of the mesh that node g of an axis stands for.
+  /// The node of the mesh that node g of an axis represents.
   std::uint32_t mesh_node(int axis, std::size_t g) const { return terms_[axis][g].node; }
 
-  /// Row (j, k), nodes(0) numbers, of component `c` of a field, or of a potential (c = -1). `line` has a number for each
-  /// node of the mesh along x.
+  /// Computes row (j, k), nodes(0) numbers, of component `c` of a field, or of a potential (c = -1). `line` has one
+  /// number per node of the mesh along x.
   void row(double const* values, int c, std::size_t j, std::size_t k, double* line, double* to) const;
 
-  /// Where node j of the mesh stands among those of an axis.
+  /// The index of node j of the mesh among all nodes of an axis.
   std::size_t place(int axis, std::size_t j) const {
     return j + (has_ghosts(axis) ? static_cast<std::size_t>(before_) : 0);
   }
-  /// Nodes with one place along the last axis.
+  /// The number of nodes with the same index along the last axis.
   std::size_t plane() const { return dimension_ == 3 ? nodes(0) * nodes(1) : dimension_ == 2 ? nodes(0) : 1; }
 
-  /// Adds what stands on ghosts to the nodes that they stand for, in place, and gives the counts on the mesh times
-  /// `unit`. (The sums are of integers.) The cell of a node on a wall is half as large as others, so its counts are
+  /// Adds the counts on ghosts to the nodes that they represent, in place, and returns the counts on the mesh times
+  /// `unit`. (The sums are of integers.) The cell of a node on a wall has half the size of others, so its counts are
   /// doubled.
   void fold(std::int64_t* counts, double unit, std::vector<double>& density, int threads) const;
-  /// The density at Dirichlet ends as if they were mirrors, which is exact for a uniform density. (That of fold() keeps
-  /// the dipole moment of every particle, and so smears charge across the end where clouds are wider than two cells.)
+  /// The density at Dirichlet ends computed as at mirrors, which is exact for a uniform density. (fold() conserves the
+  /// dipole moment of every particle, and so smears charge across the end if clouds are wider than two cells.)
   void fold_mirrored(std::int64_t* counts, double unit, std::vector<double>& density, int threads) const;
-  /// Whether the two differ.
+  /// True if the two differ.
   bool smears() const;
-  /// fold() in two steps: planes beyond the ends of the last axis; then what stands in planes [first, last) of the mesh.
+  /// fold() in two steps: planes beyond the ends of the last axis; then planes [first, last) of the mesh.
   void fold_planes(std::int64_t* counts) const;
   void fold_in_planes(std::int64_t* counts, double unit, std::vector<double>& density, int threads, std::size_t first,
                       std::size_t last) const;
 
  private:
   bool has_ghosts(int axis) const { return axis < dimension_ && ends_[axis].low != FieldBoundary::open; }
-  /// Whether a node of the mesh is on a wall.
+  /// True if a node of the mesh is on a wall.
   bool is_wall(int axis, std::size_t node) const {
     return has_ghosts(axis) && ends_[axis].low != FieldBoundary::periodic &&
            (node == 0 || node == mesh_nodes_[axis] - 1);
   }
-  /// Whether a node is one of the mesh itself.
+  /// True if a node is part of the mesh itself.
   bool own(int axis, std::size_t g) const {
     return !has_ghosts(axis) || (g >= place(axis, 0) && g < place(axis, mesh_nodes_[axis]));
   }

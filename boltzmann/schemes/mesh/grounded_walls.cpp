@@ -12,10 +12,10 @@
 namespace boltzmann {
 namespace {
 
-/// How a density that is 1 at a low Dirichlet end, and falls to 0 at the other one (or stays 1 up to a Neumann end),
-/// differs from what its values on the inner nodes make of it in the spectral form: `density` is added to that on the
-/// nodes, so that all modes of the mesh have their exact amplitudes; `field` is that of all shorter waves. `smeared` is
-/// the field at nodes that WallClouds::smear adds, apart from the uniform one of its dipole.
+/// Correction of a density that is 1 at a low Dirichlet end and falls to 0 at the other one (or stays 1 up to a Neumann
+/// end), relative to the spectral form from its values on the inner nodes. `density` is added to that on the nodes, so
+/// that all modes of the mesh have their exact amplitudes. `field` is that of all shorter waves. `smeared` is the field
+/// at nodes due to WallClouds::smear, except for the uniform field of its dipole.
 struct Lift {
   std::vector<double> density, field, smeared;
 };
@@ -27,12 +27,12 @@ Lift make_lift(MeshGrid const& grid, FieldEnds const& ends, int a, std::vector<d
   std::size_t const size = poisson::Lines::buffer_size(axis, poisson::Layout::row);
   FourierArray modes(size), nodes(size);
   double const h = axis.spacing, length = static_cast<double>(axis.cells) * h;
-  // The exact amplitudes of both densities are 2 / (k L). Transforms double what they are given.
+  // The exact amplitudes of both densities are 2 / (k L). Transforms double their input.
   auto const fill = [&](auto const& amplitude) {
     std::fill_n(modes.data(), size, 0.0);
     for (std::size_t j = 0; j < axis.modes; ++j) modes[j] = amplitude(std::sqrt(axis.eigenvalue[j])) / length;
   };
-  // function(node, field there) of a density with amplitudes k^2 times those that fill() got.
+  // Computes function(node, field) for a density with amplitudes k^2 times those given to fill().
   auto const slopes = [&](auto const& function) {
     poisson::Nodes const range = lines.slope(modes.data(), nodes.data(), 1);
     for (std::size_t j = 0; j < axis.nodes; ++j)
@@ -83,12 +83,14 @@ GroundedWalls::GroundedWalls(MeshGrid const& grid, std::array<FieldEnds, 3> cons
     }
 }
 
-/// The first node from a wall inward that no particle of the first cell meets, nor one that meets the wall.
+/// The first node inside from a wall that is out of range of all particles in the first cell, and of those in range of
+/// the wall node.
 std::size_t GroundedWalls::far_node(int axis) const {
   return std::min(clouds_.smear.size() - 1 + static_cast<std::size_t>(order_), grid_.nodes[axis] - 1);
 }
 
-/// function(node of the wall, index of the node so many nodes inside of it) for all that are on no other grounded wall.
+/// Calls function(node of the wall, index of the node `inside` nodes further in) for all nodes that are not on another
+/// grounded wall.
 template <class Function>
 void GroundedWalls::for_nodes(Wall const& wall, std::size_t inward, Function const& function) const {
   std::array<std::size_t, 3> const n = grid_.nodes;
@@ -125,7 +127,7 @@ void GroundedWalls::take(std::vector<double> const& density, std::pair<std::size
     }
   }
   if (all) return;
-  team->sum(bits);  // only one rank has each number
+  team->sum(bits);  // each number is nonzero on one rank only
   auto next = bits.begin();
   for (Wall& wall : walls_)
     for (auto* values : {&wall.at, &wall.far})
@@ -181,7 +183,7 @@ void GroundedWalls::for_particles(std::vector<std::vector<double>>& field, doubl
   for (Wall const& wall : walls_) {
     auto& E = field[static_cast<std::size_t>(wall.axis)];
     double const C = wall.high ? -constant : constant, h = grid_.spacing[wall.axis];
-    // To the nearest node goes all charge of the half cell, and the mean field there is what acts on it.
+    // The nearest node receives all charge of the half cell, and the mean field of the half cell acts on it.
     double const even = order_ == 1 ? 0 : 0.25;
     for_nodes(wall, 0, [&](std::size_t i, std::size_t node) {
       double const at_wall = wall.at[i] - clouds_.smear[0] * (wall.far[i] - background);

@@ -1,4 +1,4 @@
-// Mesh fields: numbers on the nodes of a regular mesh, as a user reads, draws and writes them.
+// Mesh fields: numbers on the nodes of a regular mesh, for reading, drawing and writing.
 #pragma once
 
 #include <boltzmann/boundaries/box.hpp>
@@ -11,9 +11,9 @@
 
 namespace boltzmann {
 
-/// The nodes of a mesh over a box. Along a periodic axis there are as many nodes as cells, node j at low + j spacing;
-/// along any other one more, so that the last stands on the high edge. The axis x varies fastest in memory. Axes beyond
-/// the dimension have one node.
+/// The nodes of a mesh over a box. A periodic axis has as many nodes as cells, node j at low + j spacing. Any other
+/// axis has one more, so that the last node is on the high edge. The axis x varies fastest in memory. Axes beyond the
+/// dimension have one node.
 struct MeshGrid {
   int dimension = 1;
   std::array<std::size_t, 3> nodes{1, 1, 1};
@@ -34,16 +34,16 @@ struct MeshGrid {
   }
 };
 
-/// So many cells along each axis of the box. Error if an axis has none, or `cells` has another number of axes than the
-/// box.
+/// A grid with these cells along each axis of the box. Throws Error if an axis has none, or `cells` has another number
+/// of axes than the box.
 MeshGrid make_grid(Box const& box, std::vector<std::size_t> const& cells);
 
 /// A quantity on the nodes: one number (density, potential) or a vector (the field) for each.
 struct MeshField {
   std::string name;     ///< "density", "potential", "field"
-  Dimension dimension;  ///< its unit's dimension
+  Dimension dimension;  ///< physical dimension of its unit
   MeshGrid grid;
-  std::vector<std::vector<double>> components;  ///< one array of grid.size() numbers for each component
+  std::vector<std::vector<double>> components;  ///< one array of grid.size() numbers per component
 
   double& at(std::size_t i, std::size_t j = 0, std::size_t k = 0) { return components[0][grid.index(i, j, k)]; }
   double at(std::size_t i, std::size_t j = 0, std::size_t k = 0) const { return components[0][grid.index(i, j, k)]; }

@@ -1,4 +1,4 @@
-// The members of mesh schemes with their keys.
+// The keys of mesh schemes.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/once.hpp>
 #include <boltzmann/schemes/field_options.hpp>

@@ -1,4 +1,4 @@
-// Mesh options: what scenarios say of a field on a mesh, with their keys.
+// Mesh options: the keys in scenarios for a field on a mesh.
 #pragma once
 
 #include <boltzmann/core/options.hpp>
@@ -10,10 +10,10 @@
 
 namespace boltzmann {
 
-/// The law and the ends of the field are read by the reader of the scenario.
+/// The reader of the scenario processes the law and the ends of the field.
 struct MeshOptions {
   std::vector<std::size_t> cells = {};
-  std::optional<double> accuracy;  ///< P3M, which chooses what stands below; without it a plain mesh
+  std::optional<double> accuracy;  ///< P3M, which chooses the following options; empty: a plain mesh
   std::vector<double> bonded_factors = {};
   bool background = false;
   Assignment assignment = Assignment::cic;

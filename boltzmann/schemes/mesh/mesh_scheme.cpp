@@ -1,4 +1,4 @@
-// What a mesh scheme is told, what it refuses, and how it looks to a simulation.
+// The options of a mesh scheme, their checks, and its interface for a simulation.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/exact_sum.hpp>
 #include <boltzmann/core/threads.hpp>
@@ -25,7 +25,7 @@ bool closed(FieldBoundary boundary) {
   return boundary == FieldBoundary::periodic || boundary == FieldBoundary::neumann;
 }
 
-/// The nodes that the solver needs: those of the box, and along open axes what particles at the edges meet.
+/// The nodes for the solver: those of the box, and along open axes those in the range of particles at the edges.
 MeshGrid solver_grid(Box const& box, std::vector<std::size_t> const& cells, std::array<FieldEnds, 3> const& ends,
                      int order) {
   MeshGrid grid = make_grid(box, cells);
@@ -91,7 +91,7 @@ MeshScheme::~MeshScheme() = default;
 
 void MeshScheme::changed() {
   work_.reset();
-  agreed_ = measured_ = false;  // with it goes how finely strengths are counted
+  agreed_ = measured_ = false;  // the resolution of strengths depends on it
   Scheme::changed();
 }
 
@@ -174,7 +174,7 @@ MeshScheme::Work& MeshScheme::work() {
   }
   check_walls(box());
   MeshGrid const grid = solver_grid(box(), cells_, ends_, order_);
-  double nodes = 1;  // the number as a size may wrap around
+  double nodes = 1;  // a double, because the product may overflow std::size_t
   for (int a = 0; a < grid.dimension; ++a) nodes *= static_cast<double>(grid.nodes[a]);
   double const gib = 1024.0 * 1024 * 1024;
   if (8 * nodes > machine_memory())
@@ -297,14 +297,14 @@ EnergyAndVirial MeshScheme::measure(double time) {
   auto measures = EnergyAndVirial::known();
   measures.reciprocal = true;
   if (!pairs_.ensembles().empty()) measures = pairs_.measure(time, false);
-  // Ends of a field have charges of their own, and nobody knows what a user's stage does.
+  // Ends of a field may carry charges, and the effect of a user's stage is unknown.
   for (int a = 0; a < box().dimension(); ++a) measures.reciprocal = measures.reciprocal && box().periodic(a);
   if (has_users_stage()) measures.reciprocal = false;
   Work& work = this->work();
   solve(work, true, division_ ? deposit_share(work, Whose::everybody) : deposit(work));
   measured_ = division_ != nullptr;
   pad(work.ghosts, work.potential, true, work.padded, threads());
-  // The pair scheme may supervise fewer ensembles, in another order.
+  // The pair scheme may have fewer ensembles, in another order.
   auto const& all = ensembles();
   std::vector<std::vector<double>> energies(all.size());
   for (std::size_t e = 0; e < all.size(); ++e) {
@@ -345,7 +345,7 @@ EnergyAndVirial MeshScheme::measure(double time) {
     measures.potential -= 0.5 * work.total_strength / box().volume() * sum.value() * work.grid.cell_volume();
   }
   measures.per_particle = std::move(energies);
-  measures.virial_per_particle.clear();  // the mesh's is nobody's
+  measures.virial_per_particle.clear();  // that of the mesh can't be attributed to particles
   add_virial(work.density, work.potential, work.field, measures);
   if (!measures.no_virial.empty())
     for (auto& row : measures.virial) row.fill(std::numeric_limits<double>::quiet_NaN());
@@ -355,8 +355,8 @@ EnergyAndVirial MeshScheme::measure(double time) {
 void MeshScheme::add_virial(MeshField const&, MeshField const&, MeshField const& field,
                             EnergyAndVirial& measures) const {
   // Maxwell's stress of a periodic field: the integral of (E^2/2 delta_ab - E_a E_b) / C. In finite differences it
-  // belongs to the energy of E as it is there, not quite to half the strengths times potentials: on waves of some cells
-  // the two differ.
+  // belongs to the energy of the discrete E, which differs from half the strengths times potentials for waves of a few
+  // cells.
   int const D = box().dimension();
   for (int a = 0; a < D; ++a)
     if (!box().periodic(a))
@@ -424,7 +424,7 @@ std::unique_ptr<FusedSteps> MeshScheme::fused_steps(std::vector<Mover> const& mo
         std::find_if(movers.begin(), movers.end(), [&](Mover const& m) { return m.ensemble == &ensemble; });
     if (mover == movers.end() || ensemble.size() == 0 || !pairs_.acts_uniformly(ensemble)) return nullptr;
     if (mover->moves && !loaded->kind.newton) return nullptr;
-    // A strength and a mass for all.
+    // One strength and one mass for all particles.
     loaded->refresh(threads());
     double const mass = ensemble.row(0)[loaded->kind.mass], strength = loaded->strengths[0];
     for (std::size_t i = 0; i < ensemble.size(); ++i)

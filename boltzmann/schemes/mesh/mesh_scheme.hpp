@@ -26,41 +26,41 @@ namespace boltzmann {
 
 struct AssignTask;
 
-/// How strengths are spread over nodes, and the field brought back: the nearest node, the 2 (4, 8) nodes of the cell,
-/// or the 3 (9, 27) nearest, by B-splines of order 1, 2, 3.
+/// The spreading of strengths over nodes and the interpolation of the field: the nearest node, the 2 (4, 8) nodes of
+/// the cell, or the 3 (9, 27) nearest, by B-splines of order 1, 2, 3.
 enum class Assignment { ngp = 1, cic = 2, tsc = 3 };
 Words<Assignment> const& assignment_words();
 
-/// What particles are stored in while a run goes through the mesh's own loop; the user's rows are doubles always.
+/// The storage of particles in the mesh's own loop; the user's rows are always doubles.
 enum class Precision {
   full,    ///< doubles
-  single,  ///< velocities as floats, positions as integers of 32 bits (2^-24 of a cell, or 2^-29 of the
-           ///< longest axis if that is more): half the memory, and faster
+  single,  ///< velocities as floats, positions as integers of 32 bits (2^-24 of a cell, or 2^-29 of the longest axis if
+           ///< that is more): half the memory, and faster
 };
 Words<Precision> const& precision_words();
 
 class MeshScheme : public Scheme {
  public:
-  /// A mesh of so many cells along each axis over the box. `law` says what field strengths make (coulomb(k),
-  /// gravity(G): div E = C rho); it can't be softened. The field is periodic where the box is, free space outside
-  /// (FieldBoundary::open) on other axes unless boundary() says otherwise.
-  /// Error if the box has regions or an axis has no cells; at the first use, if the mesh would take more memory than
-  /// this machine has.
+  /// A mesh of these cells along each axis over the box. `law` relates field and strengths (coulomb(k), gravity(G): div
+  /// E = C rho); it can't be softened. The field is periodic if the box is; other axes have free space outside
+  /// (FieldBoundary::open) unless boundary() sets another condition.
+  /// Throws Error if the box has regions or an axis has no cells; at the first use, if the mesh would need more memory
+  /// than this machine has.
   MeshScheme(Box box, std::vector<std::size_t> cells, LaplaceLaw const& law);
   ~MeshScheme() override;
 
-  /// What the field does at the ends of an axis that is not periodic. Error for a periodic one, or if only one end is
-  /// open.
+  /// The boundary condition of the field at the ends of an axis that is not periodic. Throws Error for a periodic axis,
+  /// or if only one end is open.
   void boundary(int axis, FieldBoundary low, FieldBoundary high);
   void boundary(int axis, FieldBoundary both) { boundary(axis, both, both); }
   void assignment(Assignment order) { assignment(static_cast<int>(order)); }
-  /// B-splines of any order from 1 to 7. Error for others.
+  /// B-splines of any order from 1 to 7. Throws Error for others.
   void assignment(int order);
   int assignment() const { return order_; }
   void form(PoissonForm form);
   PoissonForm form() const { return form_; }
-  /// A uniform background that makes the whole neutral. Where the field is periodic (or closed in by Neumann walls)
-  /// there is no field without.
+  /// Adds a uniform background that neutralises the system. A periodic field (or one enclosed by Neumann walls) does
+  /// not exist without it.
   void background(bool yes);
   void precision(Precision precision) {
     precision_ = precision;
@@ -68,7 +68,7 @@ class MeshScheme : public Scheme {
   }
   Precision precision() const { return precision_; }
 
-  /// The particles of an ensemble make the field and feel it: by their strength(), or under gravity by their mass if
+  /// The particles of an ensemble create the field and feel it: by their strength(), or under gravity by their mass if
   /// the class has no other strength. Further schemes may act on the same ensemble (gravity on a gas of smooth
   /// particles).
   template <class P>
@@ -76,36 +76,36 @@ class MeshScheme : public Scheme {
     static_assert(ForcedParticle<P>, "a mesh acts on classes with mass and velocity, and a force as influence");
     add(ensemble, source_kind<P>());
   }
-  /// For code that knows classes only at run time.
+  /// For code that selects classes at run time.
   void add(AnyEnsemble& ensemble, SourceKind const& kind);
 
-  /// An influence from outside, as in PairScheme.
+  /// An external influence, as in PairScheme.
   template <class P, class Law>
   void external(Ensemble<P>& ensemble, Law const& law) {
     pairs_.external(ensemble, law);
   }
-  /// What acts beside the mesh: pair laws, connections and influences from outside. Its measures are included.
+  /// Interactions besides the mesh: pair laws, connections and external influences. Their measures are included.
   PairScheme& pairs() { return pairs_; }
   PairScheme const& pairs() const { return pairs_; }
 
-  // The four stages of section 4.4, each of which a user's function may replace; an empty function brings back the
-  // mesh's own. Fields come with their grid and its size() numbers in each component: the density zero, the rest as the
-  // last calculation left it.
-  /// Gives the density of strength on the nodes.
+  // The four stages of section 4.4. A user's function may replace each; an empty function restores the built-in stage.
+  // Fields have their grid and size() numbers per component. The density is passed as zero, other fields as the last
+  // calculation left them.
+  /// Computes the density of strength on the nodes.
   using DensityAssignment = std::function<void(MeshScheme& mesh, MeshField& density)>;
-  /// Solves laplacian phi = -C rho. Where the field is closed (periodic, Neumann) the mean of phi is zero: energies
-  /// count on that.
+  /// Solves laplacian phi = -C rho. If the field is closed (periodic, Neumann), the mean of phi must be zero, because
+  /// energies assume it.
   using PotentialCalculation = std::function<void(MeshScheme& mesh, MeshField const& density, MeshField& potential)>;
-  /// Gives E from phi: a component for each axis.
+  /// Computes E from phi: a component for each axis.
   using InfluenceField = std::function<void(MeshScheme& mesh, MeshField const& potential, MeshField& field)>;
-  /// Gives E at each particle of an ensemble, dimension() numbers a particle.
+  /// Computes E at each particle of an ensemble, dimension() numbers per particle.
   using Interpolation = std::function<void(MeshScheme& mesh, MeshField const& field, AnyEnsemble const& ensemble,
                                            std::vector<double>& E)>;
   void density_assignment(DensityAssignment stage);
   void potential_calculation(PotentialCalculation stage);
   void influence_field(InfluenceField stage);
   void interpolation(Interpolation stage);
-  // And what they do unless replaced, for functions that add to it.
+  // The built-in stages, for functions that extend them.
   void assign_density(MeshField& density);
   void calculate_potential(MeshField const& density, MeshField& potential);
   void calculate_field(MeshField const& potential, MeshField& field);
@@ -115,15 +115,15 @@ class MeshScheme : public Scheme {
   std::vector<double> strengths(AnyEnsemble const& ensemble) const;
   /// C of div E = C rho.
   double constant() const { return law_.constant; }
-  /// The nodes. Along open axes the mesh reaches beyond the box by some cells.
+  /// The nodes. Along open axes the mesh extends beyond the box by some cells.
   MeshGrid const& grid();
-  /// Density, potential and field of the particles as they stand. In a divided run, for observers, on any rank.
+  /// Density, potential and field of the current particles. In a divided run: for observers, on any rank.
   std::vector<MeshField const*> mesh_fields() override;
 
-  /// Those that make the field, then those that only pairs() knows.
+  /// The ensembles that create the field, then those of pairs() only.
   std::vector<AnyEnsemble*> const& ensembles() const override;
   void add_influences(double time) override;
-  /// Nothing if a stage is the user's.
+  /// Nothing if the user has replaced a stage.
   std::optional<std::uint64_t> revision() const override;
   void complete(double time) override { pairs_.complete(time); }
   bool derives(AnyEnsemble const& ensemble, Field const& field) const override {
@@ -137,7 +137,7 @@ class MeshScheme : public Scheme {
   std::string undivided() const override;
   bool measures_sums() const override { return pairs_.measures_sums(); }
   bool shares_out() const override { return pairs_.shares_out(); }
-  /// Each rank counts its particles onto the mesh; a small one is then solved by all, of a large one each does a part.
+  /// Each rank counts its particles onto the mesh. A small mesh is then solved by all ranks, a large one in parts.
   void divide(Division* division) override;
   void bring_particles() override;
   EnergyAndVirial measure(double time = 0) override;
@@ -155,12 +155,12 @@ class MeshScheme : public Scheme {
  protected:
   /// Replaces the solution of Poisson's equation (P3M): the mesh, the order, Green's function.
   void solve_by(std::vector<std::size_t> cells, int order, GreensFunction green);
-  /// Adds the virial of what the mesh gives, or says why it can't be had.
+  /// Adds the virial of the mesh, or states why it is unavailable.
   virtual void add_virial(MeshField const& density, MeshField const& potential, MeshField const& field,
                           EnergyAndVirial& measures) const;
   /// While a run is divided.
   Division* division() const { return division_; }
-  /// From now on assignment(), form() and boundary() are refused.
+  /// From now on assignment(), form() and boundary() throw.
   void chosen_by_accuracy() { chosen_by_accuracy_ = true; }
 
  private:
@@ -178,7 +178,7 @@ class MeshScheme : public Scheme {
   void add_background(Work& work) const;
   void check_neutral() const;
   AssignTask task_for(Work const& work, Loaded const& loaded) const;
-  enum class Whose { everybody, own };  // particles of this rank's share
+  enum class Whose { everybody, own };  // `own`: owned particles of this rank
   double scale_of_counts() const;
   std::int64_t count(Work& work, double per_strength, Whose whose) const;
   [[noreturn]] void refuse_outside(std::int64_t particle) const;
@@ -188,7 +188,7 @@ class MeshScheme : public Scheme {
   bool plain() const;
   bool has_users_stage() const;
 
-  // divided_mesh.cpp: over the ranks of a team.
+  // divided_mesh.cpp: a mesh over the ranks of a team.
   SolvingRanks const* deposit_share(Work& work, Whose readers);
   SolvingRanks const* solving_ranks(Work& work, bool whole_steps) const;
   std::vector<char> planes_read(Work const& work) const;
@@ -212,9 +212,9 @@ class MeshScheme : public Scheme {
   Interpolation interpolation_;
   std::vector<std::unique_ptr<Loaded>> loaded_;
   std::unique_ptr<Work> work_;
-  Division* division_ = nullptr;  // while a run is divided: then
-  bool agreed_ = false;           // strengths are those that all ranks know, and
-  bool measured_ = false;         // what is on the nodes is of the particles that observers see
+  Division* division_ = nullptr;  // set during a divided run
+  bool agreed_ = false;           // all ranks have the current strengths
+  bool measured_ = false;         // the data on the nodes are of the particles that observers see
   std::size_t solves_ = 0;
   mutable std::vector<AnyEnsemble*> supervised_;
 };

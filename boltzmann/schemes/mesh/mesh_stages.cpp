@@ -45,7 +45,7 @@ double MeshScheme::scale_of_counts() const {
   return counts_per_strength(greatest, particles);
 }
 
-/// Counts particles into the tallies. Gives the first that is not in the box.
+/// Counts particles into the tallies. Returns the first that is not in the box.
 std::int64_t MeshScheme::count(Work& work, double per_strength, Whose whose) const {
   AssignKernels const kernels = for_instruction_set(
       [&](auto set) { return assign_kernels<decltype(set)::value>().of[box().dimension() - 1][order_ - 1]; });
@@ -109,10 +109,11 @@ void MeshScheme::calculate_field(MeshField const& potential, MeshField& field) {
   work().walls.correct(field.components, law_.constant, work().background(*this));
 }
 
-/// The density of all particles. What it gives is for solve(): here nobody, every rank solves what it solves alone.
+/// The density of all particles. The returned ranks are for solve(); here null, because every rank solves the whole
+/// mesh.
 SolvingRanks const* MeshScheme::deposit(Work& work) {
   for (auto const& loaded : loaded_) loaded->refresh(threads());
-  agreed_ = false;  // other ranks may not have come here
+  agreed_ = false;  // this call need not be collective
   work.total_strength = total_strength();
   check_neutral();
   if (density_assignment_) {
@@ -145,7 +146,7 @@ std::vector<double> MeshScheme::shares_inside(MeshGrid const& grid) const {
 }
 
 void MeshScheme::add_background(Work& work) const {
-  if (!background_ || closed()) return;  // where the field is closed the mean is left out anyway
+  if (!background_ || closed()) return;  // in a closed field, the mean has no effect
   if (work.inside.empty()) work.inside = shares_inside(work.grid);
   double const density = work.background(*this);
   auto& nodes = work.density.components[0];

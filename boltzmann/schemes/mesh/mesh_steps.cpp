@@ -1,4 +1,4 @@
-// Whole steps on a mesh: columns sorted in space, slots of the field, and the loop around the kernels.
+// Whole steps on a mesh: columns sorted in space, slots of the field, and the loop that calls the kernels.
 #include <boltzmann/boundaries/far_from_box.hpp>
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/kernel_dispatch.hpp>
@@ -22,13 +22,13 @@ namespace boltzmann {
 namespace {
 
 constexpr std::size_t column_padding = 64 / sizeof(float);
-// Slots that fit the second-level cache need no order of particles.
+// If the slots fit into the second-level cache, sorting particles is not worthwhile.
 constexpr std::size_t slots_worth_sorting = 1U << 13U;
-// Particles are sorted again when the fastest one has come so many cells, or after so many steps.
+// Particles are sorted again when the fastest one has moved this number of cells, or after this number of steps.
 constexpr double cells_between_sorts = 5;
 constexpr int max_steps_between_sorts = 50;
-// Where many particles meet a slot, each waits for the one before, unless the slots of the density are kept several
-// times: so many particles to a slot are worth 2 and 4 copies.
+// If many particles share a slot, each deposit waits for the previous one unless the density is kept in several copies.
+// Thresholds of particles per slot for 2 and 4 copies.
 constexpr std::size_t worth_two_copies = 8, worth_four_copies = 64;
 
 template <class Real>
@@ -90,7 +90,7 @@ class MeshSteps final : public FusedSteps {
 
   void store(double time) override {
     for (auto& columns : columns_) {
-      if (!columns.moves || !columns.task.pending) continue;  // else rows are as they should be
+      if (!columns.moves || !columns.task.pending) continue;  // otherwise rows are up to date
       accelerate(columns, time);
       store(columns);
     }
@@ -102,14 +102,14 @@ class MeshSteps final : public FusedSteps {
     SourceKind kind;
     bool moves;
     double mass, strength;
-    std::size_t size;  // of this rank's share
+    std::size_t size;  // owned particles of this rank
     AlignedArray<Fixed> position[3], other_position[3];
     AlignedArray<Real> velocity[3], other_velocity[3];
     std::vector<std::uint32_t> order, other_order;  // the number of each particle
     StepTask<Real> task;
-    double fastest = 0;    // square of a velocity in the last step
-    bool failed = false;   // there
-    double travelled = 0;  // cells since the last sort
+    double fastest = 0;    // greatest square of a velocity in the last step
+    bool failed = false;   // in the last step
+    double travelled = 0;  // cells moved since the last sort
     int steps = 0;
   };
 
@@ -129,7 +129,8 @@ class MeshSteps final : public FusedSteps {
     tallies_.resize(slots_ * width_ * copies_);
   }
 
-  /// Parts of a cell: as fine as the numbers allow, and no finer than what comes back from the rows' doubles.
+  /// Fixed-point resolution: as fine as the integers allow, but not finer than what the doubles in the rows can
+  /// restore.
   void choose_bits() {
     double largest = 1, furthest = 1;
     for (int a = 0; a < dimension_; ++a) {
@@ -147,11 +148,11 @@ class MeshSteps final : public FusedSteps {
     }
   }
 
-  /// What has happened to particles in a failing step: to those with the lowest numbers, however they are sorted.
+  /// The failures of a step, each of the particle with the lowest number, independent of the sorting.
   struct Failure {
     static constexpr std::uint32_t nobody = std::numeric_limits<std::uint32_t>::max();
     std::uint32_t not_finite = nobody, furthest = nobody, left = nobody;
-    int along = 0;       // the axis on which it has left
+    int along = 0;       // the axis along which it has left
     double fastest = 0;  // square of a velocity
 
     void take(Failure const& other) {
@@ -162,7 +163,7 @@ class MeshSteps final : public FusedSteps {
     }
   };
 
-  /// Gives the first particle that can't be where it is.
+  /// Returns the first particle with an invalid position.
   std::size_t add_columns(MeshScheme::Loaded const& loaded, bool moves) {
     AnyEnsemble& ensemble = *loaded.ensemble;
     Columns& columns = columns_.emplace_back();
@@ -198,10 +199,10 @@ class MeshSteps final : public FusedSteps {
           double const v = row[columns.kind.velocity + a];
           bool const inside =
               x >= 0 && x <= static_cast<double>(end_[a]) && std::isfinite(v) && !far_from_box(box, row[a], a);
-          if (!inside)  // the first one, whoever comes first
+          if (!inside)  // the lowest number, independent of the order of threads
             for (auto first = outside.load(); number < first && !outside.compare_exchange_weak(first, number);) {
             }
-          // What rounds to the high edge of a periodic axis is at the low one.
+          // A position that rounds to the high edge of a periodic axis is mapped to the low edge.
           bool const wrapped = scheme_.box().periodic(a) && x >= static_cast<double>(end_[a]);
           columns.position[a][i] = inside && !wrapped ? static_cast<Fixed>(x) : 0;
           columns.velocity[a][i] = static_cast<Real>(v);
@@ -239,7 +240,7 @@ class MeshSteps final : public FusedSteps {
 
   bool sorting() const { return slots_ * (numbers_ * sizeof(Real) + width_ * 8) > slots_worth_sorting; }
 
-  /// The rotation of velocities in half a step: what it makes of the axes.
+  /// The rotation of velocities in half a step, as the rotated axes.
   void set_turn(Columns& columns) {
     auto const rotations = scheme_.pairs_.rotations(*columns.ensemble, true);
     columns.task.turns = !rotations.empty() && columns.moves;
@@ -256,7 +257,7 @@ class MeshSteps final : public FusedSteps {
     }
   }
 
-  /// What strengths count, so that no sum can be too large.
+  /// Chooses the unit in which strengths are counted, so that no sum can overflow.
   void count_units() {
     std::size_t particles = 0;
     double greatest = 0;
@@ -284,13 +285,13 @@ class MeshSteps final : public FusedSteps {
     }
   }
 
-  /// Kernels move what stands behind the last particle, too.
+  /// Kernels also process the padding after the last particle.
   void clear_padding(Columns& columns) {
     for (std::size_t i = columns.size; i < columns.size + column_padding; ++i)
       for (int a = 0; a < dimension_; ++a) columns.position[a][i] = 0, columns.velocity[a][i] = 0;
   }
 
-  /// Runs a kernel over all particles of an ensemble, counting them.
+  /// Runs a kernel over all particles of an ensemble, which also counts them.
   void run(Columns& columns, StepKernel<Real> kernel) {
     StepTask<Real>& task = columns.task;
     point_at_columns(columns);
@@ -310,9 +311,9 @@ class MeshSteps final : public FusedSteps {
     }
   }
 
-  /// Before the sum over all ranks.
+  /// Checks for failures; call it before the sum over all ranks.
   void check_together() {
-    std::size_t failing = 0;  // the first of those that have failed, counted from the last
+    std::size_t failing = 0;  // the first failed particle, numbered through all ensembles
     for (std::size_t c = 0; c < columns_.size() && failing == 0; ++c)
       if (columns_[c].failed) failing = columns_.size() - c;
     if (division_)
@@ -328,7 +329,7 @@ class MeshSteps final : public FusedSteps {
       std::uint32_t const number = columns.order[i];
       for (int a = dimension_ - 1; a >= 0; --a) {
         one.fastest += std::pow(static_cast<double>(columns.velocity[a][i]), 2);
-        // It was put on the low edge, so that it could do no harm.
+        // The kernel has clamped it to the low edge.
         if (columns.position[a][i] == 0 && columns.task.boundary[a] == StepBoundary::ends)
           one.left = number, one.along = a;
       }
@@ -341,7 +342,7 @@ class MeshSteps final : public FusedSteps {
     return all;
   }
 
-  /// Somebody has failed: who?
+  /// Finds the failed particle and throws.
   [[noreturn]] void explain(Columns const& columns) const {
     auto const& name = columns.ensemble->name();
     Failure const mine = find_failure(columns);
@@ -370,7 +371,7 @@ class MeshSteps final : public FusedSteps {
     throw PhysicsFailure(fmt::format("a particle of '{}' has left the mesh", name));
   }
 
-  /// What all particles count on the nodes, of all ranks.
+  /// Sums the counts on the nodes over all ranks.
   void sum_counts() {
     Ghosts const& ghosts = work_.ghosts;
     std::size_t const nx = ghosts.nodes(0), rows = ghosts.nodes(1) * ghosts.nodes(2);
@@ -392,10 +393,10 @@ class MeshSteps final : public FusedSteps {
     if (division_) division_->team().sum(counts_);
   }
 
-  /// Rows of nodes that a thread takes at once.
+  /// Rows of nodes per task of a thread.
   std::size_t row_grain() const { return std::max<std::size_t>(1, 16384 / work_.ghosts.nodes(0)); }
 
-  /// From counts to the slots of the field.
+  /// Solves for the potential and stores the field in slots.
   void solve() {
     sum_counts();
     ++scheme_.solves_;
@@ -431,12 +432,13 @@ class MeshSteps final : public FusedSteps {
       if (!columns.moves) continue;
       double least = std::numeric_limits<double>::infinity();
       for (int a = 0; a < dimension_; ++a) least = std::min(least, work_.grid.spacing[a]);
-      columns.travelled += 0.3 * std::sqrt(columns.fastest) * std::abs(dt_) / least;  // most are slower
+      // an estimate: most particles are slower than the fastest
+      columns.travelled += 0.3 * std::sqrt(columns.fastest) * std::abs(dt_) / least;
       if (++columns.steps >= max_steps_between_sorts || columns.travelled > cells_between_sorts) sort(columns);
     }
   }
 
-  /// Puts particles into the order of their cells. Nothing that is computed depends on it.
+  /// Sorts particles by their cells. Results do not depend on it.
   void sort(Columns& columns) {
     std::size_t const size = columns.size;
     Ghosts const& ghosts = work_.ghosts;
@@ -448,7 +450,7 @@ class MeshSteps final : public FusedSteps {
         cell = cell * (a == 0 ? nx : a == 1 ? ny : nz) + static_cast<std::size_t>(columns.position[a][i] >> bits_);
       return cell;
     };
-    // As many parts as threads, and no more counters than particles.
+    // As many parts as threads, but not more counters than particles.
     std::size_t const parts = std::clamp<std::size_t>(
         std::min<std::size_t>(static_cast<std::size_t>(scheme_.threads()), size / (cells + 1)), 1, 64);
     std::vector<std::vector<std::uint32_t>> starts(parts);
@@ -488,8 +490,8 @@ class MeshSteps final : public FusedSteps {
     columns.travelled = 0;
   }
 
-  /// The second kick that is pending, and all into the rows. The next step begins with the same field at the same
-  /// places, at the same time, and so with the same kick, which is then given at once.
+  /// Completes the pending second kick and stores all particles in the rows. The next step starts with the same field
+  /// at the same places and time, and so with the same kick, which is applied here too.
   void store(Columns& columns) {
     StepTask<Real>& task = columns.task;
     point_at_columns(columns);
@@ -508,12 +510,12 @@ class MeshSteps final : public FusedSteps {
 
   MeshScheme& scheme_;
   MeshScheme::Work& work_;
-  Division* division_;  // of the run, in which columns are those of this rank's share
+  Division* division_;  // set in a divided run, in which columns are the owned particles of this rank
   int dimension_;
   double dt_;
   StepKernels<Real> kernels_;
   int bits_ = 0;
-  double part_[3] = {1, 1, 1};  // of a length
+  double part_[3] = {1, 1, 1};  // as a length
   Fixed end_[3] = {};
   std::size_t slots_x_ = 0, slots_y_ = 0, slots_ = 0, width_ = 0, numbers_ = 0, copies_ = 1;
   double unit_ = 1;

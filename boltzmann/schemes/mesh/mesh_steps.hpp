@@ -1,4 +1,4 @@
-// Mesh steps: whole steps of particles on a mesh, from columns of their own. Private to this room.
+// Mesh steps: whole steps of particles on a mesh, stored in columns. Private to this module.
 #pragma once
 
 #include <boltzmann/schemes/mesh/mesh_scheme.hpp>
@@ -8,8 +8,8 @@
 
 namespace boltzmann {
 
-/// The loop of a mesh scheme whose particles all move as Newton says (or not at all), each ensemble with one mass and
-/// one strength. PhysicsFailure or Error if a particle can't be where it is.
+/// The loop of a mesh scheme whose particles all obey Newton's equations (or are fixed), each ensemble with one mass
+/// and one strength. Throws PhysicsFailure or Error if a particle has an invalid position.
 std::unique_ptr<FusedSteps> make_mesh_steps(MeshScheme& scheme, std::vector<Mover> const& movers, double dt);
 
 }  // namespace boltzmann

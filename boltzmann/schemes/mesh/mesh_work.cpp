@@ -1,4 +1,4 @@
-// Arrays on the nodes of a mesh, and how finely strengths are counted there.
+// Arrays on the nodes of a mesh, and the resolution of the strengths counted there.
 #include <boltzmann/core/team.hpp>
 #include <boltzmann/core/threads.hpp>
 #include <boltzmann/schemes/mesh/mesh_work.hpp>

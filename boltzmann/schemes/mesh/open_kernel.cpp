@@ -1,4 +1,4 @@
-// Truncated kernels: known in closed form as functions of s, sampled on a long mesh, and brought to the doubled mesh.
+// Truncated kernels: their closed forms in s are sampled on a long mesh, and transformed to the doubled mesh.
 #include <boltzmann/core/fourier.hpp>
 #include <boltzmann/core/number.hpp>
 #include <boltzmann/core/threads.hpp>
@@ -14,8 +14,8 @@ namespace {
 
 constexpr std::size_t lines_at_once = 8;
 
-/// Transforms an array of [outer][n][inner] along the middle, in place: cosines of all n numbers, or sines of those
-/// between the first and the last, which become zero.
+/// Transforms an array of [outer][n][inner] along the middle axis, in place: cosines of all n numbers, or sines of the
+/// inner ones, in which case the first and last become zero.
 void transform(double* data, std::size_t outer, std::size_t n, std::size_t inner, bool sines) {
   if (n == 1) return;
   std::size_t const first = sines ? 1 : 0, length = n - 2 * first;
@@ -41,7 +41,7 @@ void transform(double* data, std::size_t outer, std::size_t n, std::size_t inner
   }
 }
 
-/// What a kernel has at the radius where it is cut. It is taken off before the transformation, so that the cut kernel
+/// The value of a kernel at its truncation radius. It is subtracted before the transform, so that the truncated kernel
 /// is continuous and rings less, and added again on the nodes.
 double value_at(int axes, double k, double radius) {
   switch (axes) {
@@ -124,7 +124,7 @@ std::vector<double> OpenKernel::table(double k2, int slope_axis, int threads) co
     scale /= static_cast<double>(fine_[a]);
   }
 
-  // From s to the nodes; only the distances that the doubled mesh has are kept.
+  // Transform from s to the nodes; keep only distances within the doubled mesh.
   std::size_t const kept_plane = kept[0] * kept[1];
   std::vector<double> tall(kept_plane * fine[2]);
   for_ranges(fine[2], 1 + fine[2] / 16, threads, [&](std::size_t begin, std::size_t end) {
@@ -139,7 +139,7 @@ std::vector<double> OpenKernel::table(double k2, int slope_axis, int threads) co
         }
       transform(plane.data(), fine[1], fine[0], 1, slope_axis == 0);
       for (std::size_t b = 0; b < fine[1]; ++b)
-        std::copy_n(&plane[b * fine[0]], kept[0], &plane[b * kept[0]]);  // to the front: never ahead of what is read
+        std::copy_n(&plane[b * fine[0]], kept[0], &plane[b * kept[0]]);  // to the front, which has already been read
       transform(plane.data(), 1, fine[1], kept[0], slope_axis == 1);
       std::copy_n(plane.data(), kept_plane, &tall[c * kept_plane]);
     }
@@ -147,7 +147,7 @@ std::vector<double> OpenKernel::table(double k2, int slope_axis, int threads) co
   transform(tall.data(), 1, fine[2], kept_plane, slope_axis == 2);
   tall.resize(kept_plane * kept[2]);
 
-  // The cut-off's value again, and the nodes' volume; then to the modes of the doubled mesh.
+  // Add the value at the cut-off, multiply by the volume of a node, and transform to the modes of the doubled mesh.
   double const constant = slope_axis < 0 ? value_at(static_cast<int>(axes_.size()), std::sqrt(k2), radius_) : 0;
   double volume = 1;
   for (auto const& axis : axes_) volume *= axis.spacing;

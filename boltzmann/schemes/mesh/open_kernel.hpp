@@ -1,4 +1,4 @@
-// The Green function of empty space along one, two or three open axes, cut off beyond the box (Vico, Greengard,
+// The Green function of empty space along one, two or three open axes, truncated beyond the box (Vico, Greengard,
 // Ferrando 2016), as factors of Fourier modes on a doubled mesh.
 #pragma once
 
@@ -13,10 +13,10 @@ struct OpenAxis {
   double spacing;
 };
 
-/// Solutions of (laplacian - k2) phi = -rho over 1 to 3 open axes by multiplication: with rho continued by zeros to the
-/// doubled mesh, the discrete transform of phi is that of rho times the factor. Spectrally accurate for a smooth rho
-/// that vanishes at the edges of the box. The kernels are e^(-k|y|)/2k, K0(kr)/2 pi for k2 > 0, and -|y|/2, -ln(r)/2
-/// pi, 1/(4 pi r) for k2 = 0 (three axes: only for k2 = 0).
+/// Solves (laplacian - k2) phi = -rho over 1 to 3 open axes by multiplication. With rho padded by zeros to the doubled
+/// mesh, the discrete transform of phi is that of rho times the factor. Spectrally accurate for a smooth rho that
+/// vanishes at the edges of the box. The kernels are e^(-k|y|)/2k, K0(kr)/2 pi for k2 > 0, and -|y|/2, -ln(r)/2 pi,
+/// 1/(4 pi r) for k2 = 0 (three axes: only for k2 = 0).
 class OpenKernel {
  public:
   explicit OpenKernel(std::vector<OpenAxis> axes);
@@ -26,7 +26,7 @@ class OpenKernel {
   /// t for -dphi/dx along one of the axes, where i t is the factor; odd in that axis' mode, even in the others.
   std::vector<double> slope(double k2, int axis, int threads) const;
 
-  /// How many numbers a table has, and how many are held for a while to make one.
+  /// The size of a table, and of the temporary memory for its construction.
   std::size_t table_size() const;
   std::size_t scratch_size() const;
 
@@ -35,7 +35,7 @@ class OpenKernel {
   double transformed(double k2, double s2) const;
 
   std::vector<OpenAxis> axes_;
-  std::vector<std::size_t> fine_;  ///< nodes of a mesh so long that nothing wraps around
+  std::vector<std::size_t> fine_;  ///< nodes of a mesh long enough to avoid wrap-around
   double radius_ = 0;
 };
 

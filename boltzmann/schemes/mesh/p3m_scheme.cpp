@@ -1,4 +1,5 @@
-// A mesh with the optimal influence function, a pair scheme over copies of the particles, and the choice of both.
+// A mesh with the optimal influence function, a pair scheme over copies of the particles, and the choice of parameters
+// of both.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/exact_sum.hpp>
 #include <boltzmann/core/fourier.hpp>
@@ -16,24 +17,24 @@ namespace boltzmann {
 namespace {
 
 constexpr double max_growth_of_error = 1.5;  // in a box that changes
-/// What is chosen decides on bits, so it can't be for the threads of the machine, or of a rank.
+/// The choice affects the bits of results, so it must not depend on the threads of the machine or of a rank.
 constexpr int typical_threads = 2;
 
 }  // namespace
 
-/// All particles as point sources, and the pair scheme over them.
+/// All particles as point sources, and their pair scheme.
 struct P3MScheme::Near {
   std::unique_ptr<AnyEnsemble> sources;
-  int amount;  ///< where the strength stands in a row
+  int amount;  ///< offset of the strength in a row
   PairScheme scheme;
-  std::unique_ptr<Division> division;  ///< of the sources alone, by their lists: who owns particles is another matter
+  std::unique_ptr<Division> division;  ///< by the lists of the sources alone, independent of the owners of particles
 
   Near(std::unique_ptr<AnyEnsemble> ensemble, int amount, Box const& box, EwaldShort const& law, double cutoff)
       : sources(std::move(ensemble)), amount(amount), scheme(box, cutoff) {
     PairKernels const kernels =
         for_instruction_set([&](auto set) { return ewald_kernels<decltype(set)::value>().of[box.dimension() - 1]; });
     scheme.add_pairs(*sources, *sources, kernels, PairScheme::keep(law), PairScheme::traits_of(law), cutoff);
-    scheme.shifted(false);  // the mesh has the rest of the energy
+    scheme.shifted(false);  // the mesh adds the rest of the energy
   }
 
   template <int D>
@@ -42,7 +43,7 @@ struct P3MScheme::Near {
                                   offset_of<PointSource<D>>(&PointSource<D>::amount), box, law, cutoff);
   }
 
-  /// From here on by this team, on each rank of which all sources are known; null: no more.
+  /// From now on divides the work among this team, each rank of which has all sources; null: no longer.
   void divide(Team* team) {
     if (!team) {
       if (!division || !division->goes_on()) return;
@@ -125,7 +126,7 @@ void P3MScheme::box_changed() {
 }
 
 bool P3MScheme::box_settled() {
-  if (!tuned_ || parameters_.error_mesh == 0) return false;  // no strength, no error
+  if (!tuned_ || parameters_.error_mesh == 0) return false;  // without strengths there is no error
   P3mSystem const system = this->system();
   double const chosen = std::hypot(parameters_.error_near, parameters_.error_mesh);
   double const error = std::hypot(p3m_error_near(system, parameters_.alpha, parameters_.cutoff),
@@ -150,15 +151,14 @@ void P3MScheme::tune() {
                       (D == 1   ? 2
                        : D == 2 ? 2 * pi * distance
                                 : 4 * pi * distance * distance);
-  if (!(mean > 0)) {  // nobody is there, or without strength
+  if (!(mean > 0)) {  // there are no particles with a strength
     P3mSystem one = system;
     one.particles = 2, one.sum_of_squares = 2;
     choose(tune_p3m(one, 1e-3 * std::abs(system.constant) / std::pow(box().volume(), (D - 1.0) / D), typical_threads));
     tuned_ = true;
     return;
   }
-  // With a first choice one learns how large forces are here. (Those of this law: what else acts says nothing about
-  // it.)
+  // A first choice of parameters measures the forces. (Only those of this law: other influences are irrelevant.)
   choose(tune_p3m(system, 0.01 * mean, typical_threads));
   copy_particles();
   near_->scheme.calculate();
@@ -177,7 +177,7 @@ void P3MScheme::tune() {
   double const rms = std::sqrt(squares.value() / particles);
   double const scale = std::isfinite(rms) && rms > 0.05 * mean ? rms : mean;
   choose(tune_p3m(system, accuracy_ * scale, typical_threads));
-  tuned_ = true;  // and not before: who is stopped on the way begins again
+  tuned_ = true;  // set last, so that a choice interrupted by an exception is repeated
 }
 
 P3mParameters const& P3MScheme::parameters() {
@@ -209,7 +209,7 @@ void P3MScheme::divide(Division* division) {
   if (!division && near_) near_->divide(nullptr);
 }
 
-/// As all particles are now. In a divided run, where these are known everywhere, the sources are divided from here on.
+/// Copies the current particles. In a divided run, in which all ranks have them, the sources are divided from now on.
 void P3MScheme::update_sources() {
   copy_particles();
   if (division()) near_->divide(&division()->team());
@@ -243,9 +243,9 @@ void P3MScheme::add_influences(double time) {
 
 void P3MScheme::add_virial(MeshField const& density, MeshField const& potential, MeshField const&,
                            EnergyAndVirial& measures) const {
-  // Of each wave's energy E_k = C |rho_k|^2 exp(-k^2/4 alpha^2) / (2 k^2 V) with the waves and the volume that a strain
-  // changes (Essmann et al. 1995, eq. 2.7): E_k (delta_ab - 2 (1/k^2 + 1/4 alpha^2) k_a k_b). Density and potential are
-  // transformed as one complex field F: rho_k phi_-k + rho_-k phi_k = Im(F_k F_-k).
+  // Each wave has the energy E_k = C |rho_k|^2 exp(-k^2/4 alpha^2) / (2 k^2 V). Its derivative with respect to a strain
+  // of waves and volume (Essmann et al. 1995, eq. 2.7) is E_k (delta_ab - 2 (1/k^2 + 1/4 alpha^2) k_a k_b). Density and
+  // potential are transformed as one complex field F: rho_k phi_-k + rho_-k phi_k = Im(F_k F_-k).
   MeshGrid const& grid = density.grid;
   auto const& n = grid.nodes;
   std::size_t const nodes = grid.size();
@@ -262,7 +262,7 @@ void P3MScheme::add_virial(MeshField const& density, MeshField const& potential,
     std::swap(field, waves);
     lines *= n[a];
   }
-  auto const wave = [&](int a, std::size_t j) {  // of the two at half the nodes, neither
+  auto const wave = [&](int a, std::size_t j) {  // at half the number of nodes, the sign is ambiguous
     if (2 * j == n[a]) return 0.0;
     auto const number = 2 * j > n[a] ? static_cast<double>(j) - static_cast<double>(n[a]) : static_cast<double>(j);
     return 2 * pi * number / box().length(a);
@@ -306,13 +306,14 @@ EnergyAndVirial P3MScheme::measure(double time) {
   EnergyAndVirial const near = near_->scheme.measure(time);
   measures.reciprocal = measures.reciprocal && near.reciprocal;
   P3mSystem const system = this->system();
-  // A part goes with the square of each strength; with the background, the other with each strength times their sum.
+  // One part is proportional to the square of each strength. With the background, the other is proportional to each
+  // strength times their sum.
   if (!energy_terms_) energy_terms_ = p3m_energy_terms(system, parameters_);
   double const per_square = energy_terms_->per_square,
                per_strength = energy_terms_->per_total * system.sum_of_strengths;
   double const of_total = per_strength * system.sum_of_strengths;
   measures.potential += near.potential + per_square * system.sum_of_squares + of_total;
-  // What goes with the inverse volume, and with nothing else, pushes in all directions.
+  // Energy that depends only on the inverse volume gives an isotropic pressure.
   for (int a = 0; a < box().dimension(); ++a) {
     for (int b = 0; b < box().dimension(); ++b) measures.virial[a][b] += near.virial[a][b];
     measures.virial[a][a] += of_total;

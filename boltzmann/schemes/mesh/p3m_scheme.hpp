@@ -1,6 +1,5 @@
-// P3MScheme: mesh plus pairs. What a mesh can't resolve is summed over near pairs, so that forces between Laplace
-// particles in a periodic box have the accuracy that is asked for (Hockney and Eastwood, ch. 8).
-//
+// P3MScheme: mesh plus pairs. Near pairs are summed directly, because a mesh can't resolve them. Forces between Laplace
+// particles in a periodic box have the requested accuracy (Hockney and Eastwood, ch. 8).
 //   P3MScheme scheme(Box(Vector{0., 0., 0.}, Vector{L, L, L}, Boundary::periodic), coulomb(k), 1e-5);
 //   scheme.add(sodium);
 //   scheme.add(chlorine);
@@ -16,28 +15,28 @@ namespace boltzmann {
 
 class P3MScheme final : public MeshScheme {
  public:
-  /// `accuracy`: the rms error of forces, as a part of their rms when the scheme first calculates. (Where forces nearly
-  /// vanish, as in a perfect crystal: as a part of the force between two mean strengths at the mean distance.) Mesh,
-  /// order, cut-off and splitting are chosen then. Error if the box is not periodic in every direction, the law is
-  /// softened, or the accuracy is not between 1e-10 and 0.1.
+  /// `accuracy`: the rms error of forces relative to their rms at the first calculation. (If forces nearly vanish, as
+  /// in a perfect crystal: relative to the force between two mean strengths at the mean distance.) Mesh, order, cut-off
+  /// and splitting are chosen at that calculation. Throws Error if the box is not periodic in every direction, the law
+  /// is softened, or the accuracy is not between 1e-10 and 0.1.
   P3MScheme(Box box, LaplaceLaw const& law, double accuracy);
   ~P3MScheme() override;
 
   double accuracy() const { return accuracy_; }
-  /// What was chosen; chooses if that has not been done. Estimated errors are there, too.
+  /// The chosen parameters with their estimated errors. Chooses them at the first call.
   P3mParameters const& parameters();
 
   std::vector<MeshField const*> mesh_fields() override;
   void add_influences(double time) override;
   EnergyAndVirial measure(double time = 0) override;
   bool follows_box() const override { return true; }
-  /// Cells, order, splitting and cut-off stay what they are, the influence function is that of the new box.
+  /// Keeps cells, order, splitting and cut-off, and recomputes the influence function for the new box.
   void box_changed() override;
-  /// Chooses all of them anew where the error by estimate has become 1.5 times what it was chosen to be: in a box that
-  /// has grown. PhysicsFailure if that can't be.
+  /// Chooses all parameters again if the estimated error exceeds the chosen one by a factor of 1.5, in a box that has
+  /// grown. Throws PhysicsFailure if no parameters reach the accuracy.
   bool box_settled() override;
   void make_reversible(double quantum) override;
-  /// All ranks have all particles; each finds what acts on a part of the sources, by lists that have a part of space.
+  /// Every rank has all particles. Each computes the influences on a part of the sources, by lists for a part of space.
   void divide(Division* division) override;
   std::size_t bytes() const override;
   bool measures_sums() const override { return false; }
@@ -65,7 +64,7 @@ class P3MScheme final : public MeshScheme {
   double accuracy_, quantum_ = 0;
   bool tuned_ = false;
   P3mParameters parameters_;
-  std::optional<P3mEnergyTerms> energy_terms_;  // of this box, once they are needed
+  std::optional<P3mEnergyTerms> energy_terms_;  // of the current box, when first needed
   std::unique_ptr<Near> near_;
 };
 

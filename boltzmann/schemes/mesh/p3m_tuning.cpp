@@ -1,4 +1,4 @@
-// Errors of P3M by Hockney and Eastwood's formulas, and the search for the cheapest parameters of a wanted error.
+// Errors of P3M by Hockney and Eastwood's formulas, and the search for the cheapest parameters with a given error.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/in_dimension.hpp>
 #include <boltzmann/core/pack.hpp>
@@ -57,7 +57,7 @@ void check_mesh(int dimension, int order, MeshCells const& cells, double alpha, 
 
 // ---- the waves of one axis and their aliases ----
 
-/// So many aliases on either side that the next one's Gaussian is 1e-16 of that of the wave itself.
+/// The number of aliases on either side after which the Gaussian of the next one is 1e-16 of that of the wave itself.
 int aliases_of(double alpha, double h) {
   double const ratio = 2 * alpha * h / pi;
   return std::clamp(static_cast<int>(std::ceil((std::sqrt(1 + 37 * ratio * ratio) - 1) / 2)), 1, 6);
@@ -108,10 +108,11 @@ AxisWave axis_wave(std::size_t j, std::size_t n, double edge, int order, double 
 // ---- Hockney and Eastwood's Q ----
 
 /// The sum over the mesh's wave vectors of sum_m |R_m|^2 - |D . sum_m w_m R_m|^2 / |D|^2, where R_m = k_m exp(-k_m^2 /
-/// 4 alpha^2)/k_m^2, w_m = U^2/sum U^2 and D = k (without what has no derivative). With D = k the difference is taken
-/// term by term, since it is smaller than the terms by as much as the mesh is good. Vectors are left out where the
-/// Gaussian's square is below 1e-26. Meshes of more than `most` cells on an axis are sampled by one with fewer cells of
-/// the same size, but at least 8 vectors per alpha. An eighth of the vectors in 3D stands for all.
+/// 4 alpha^2)/k_m^2, w_m = U^2/sum U^2 and D = k (without components that have no derivative). With D = k the
+/// difference is computed term by term, because on a good mesh it is much smaller than the terms. Vectors are omitted
+/// if the Gaussian's square is below 1e-26. Meshes of more than `most` cells on an axis are sampled by one with fewer
+/// cells of the same size, but at least 8 vectors per alpha. In 3D, an eighth of the vectors represents all by
+/// symmetry.
 double sum_of_errors(int dimension, Edges const& edges, int order, MeshCells const& cells, double alpha,
                      std::size_t most) {
   std::array<std::vector<AxisWave>, 3> waves;
@@ -173,7 +174,7 @@ double sum_of_errors(int dimension, Edges const& edges, int order, MeshCells con
 
 constexpr std::size_t finest_sample = 32;
 
-/// |C| sum s^2 / sqrt(N V): what the roots of integrals and of Q are multiplied by.
+/// |C| sum s^2 / sqrt(N V): the factor of the roots of integrals and of Q.
 double error_scale(P3mSystem const& system) {
   if (system.particles == 0) return 0;
   return std::fabs(system.constant) * system.sum_of_squares /
@@ -230,7 +231,8 @@ double error_mesh(P3mSystem const& system, int order, MeshCells const& cells, do
 
 // ---- the search ----
 
-/// x in [low, high] with f(x) = 0 for an f that grows, found by halving the logarithm; low or high if there is none.
+/// Solves f(x) = 0 in [low, high] for an increasing f by bisection of the logarithm. Returns low or high if there is no
+/// root.
 template <class Function>
 double root_of(double low, double high, Function const& f) {
   if (f(low) >= 0) return low;
@@ -241,7 +243,7 @@ double root_of(double low, double high, Function const& f) {
   }
   return std::sqrt(low * high);
 }
-/// Where an f with one minimum in [low, high] has it, to a thousandth, by golden sections of the logarithm.
+/// The minimum of a unimodal f in [low, high], to a thousandth, by golden sections of the logarithm.
 template <class Function>
 double minimum_of(double low, double high, Function const& f) {
   double const golden = 0.6180339887498949;
@@ -259,10 +261,11 @@ double minimum_of(double low, double high, Function const& f) {
   return std::exp(fx < fy ? x : y);
 }
 
-// alpha times the length of a cell: below, no mesh is too coarse; above, the field is not resolved.
+// Limits of alpha times the length of a cell. Below the range every mesh is fine enough; above, the field is not
+// resolved.
 constexpr double min_alpha_h = 0.02, max_alpha_h = 3;
 
-/// The error of the mesh for cubic cells, per order, once: sum of errors = cells h^2 q(alpha h).
+/// The error of the mesh for cubic cells, computed once per order: sum of errors = cells h^2 q(alpha h).
 class MeshErrors {
  public:
   explicit MeshErrors(int dimension) {
@@ -309,7 +312,7 @@ double cells_in_all(int dimension, MeshCells const& cells) {
   return product;
 }
 
-/// Density, field, and the transforms' workspace.
+/// Density, field, and the workspace of transforms.
 double bytes_of_mesh(int dimension, MeshCells const& cells) {
   return 8.0 * (dimension + 3) * cells_in_all(dimension, cells);
 }
@@ -325,8 +328,8 @@ MeshCells cells_for(P3mSystem const& system, std::size_t longest, int order) {
   return cells;
 }
 
-/// Seconds of one calculation of all forces, roughly, on one core of 2020 per thread: pairs from a list with a skin,
-/// p^D weights for assignment and interpolation, one transform forward and D back, which gain less by threads.
+/// Estimated seconds of one calculation of all forces, per thread on a core of 2020: pairs from a list with a skin, p^D
+/// weights for assignment and interpolation, one forward transform and D backward ones, which scale less with threads.
 double seconds_of(P3mSystem const& system, int order, MeshCells const& cells, double cutoff, int threads) {
   int const D = system.dimension;
   double const n = static_cast<double>(system.particles), mesh = cells_in_all(D, cells);
@@ -348,7 +351,7 @@ double longest_cell(P3mSystem const& system, MeshCells const& cells) {
   return longest;
 }
 
-constexpr std::size_t max_cells = std::size_t{1} << 20;  // on an axis
+constexpr std::size_t max_cells = std::size_t{1} << 20;  // per axis
 
 struct Candidate {
   int order;
@@ -376,7 +379,7 @@ std::optional<P3mParameters> smallest_cutoff(P3mSystem const& system, int order,
   return result;
 }
 
-/// The smallest error that order and mesh reach with the largest cut-off.
+/// The smallest error of this order and mesh, at the largest cut-off.
 double smallest_error(P3mSystem const& system, int order, MeshCells const& cells) {
   double const half = shortest_edge(system) / 2, h = longest_cell(system, cells);
   auto const total = [&](double alpha) {
@@ -385,7 +388,7 @@ double smallest_error(P3mSystem const& system, int order, MeshCells const& cells
   return total(minimum_of(min_alpha_h / h, max_alpha_h / h, total));
 }
 
-/// What rounding leaves of the force of a neighbour.
+/// The rounding error of the force of a neighbour.
 double rounding_error(P3mSystem const& system) {
   double const n = static_cast<double>(std::max<std::size_t>(system.particles, 1));
   return 1e-14 * std::fabs(system.constant) * system.sum_of_squares / n *
@@ -485,7 +488,7 @@ P3mParameters tune_p3m(P3mSystem const& system, double accuracy, int threads, st
   threads = std::max(threads, 1);
   double const half = shortest_edge(system) / 2;
   double const scale = error_scale(system);
-  if (scale == 0) {  // no force, no error
+  if (scale == 0) {  // without forces there is no error
     MeshCells const cells = cells_for(system, 4, 2);
     return {2, cells, 1 / longest_cell(system, cells), half, 0, 0};
   }
@@ -504,7 +507,7 @@ P3mParameters tune_p3m(P3mSystem const& system, double accuracy, int threads, st
       MeshCells const cells = cells_for(system, longest, order);
       if (!fits(cells)) break;
       if (order == highest_order) finest = cells;
-      // Both errors alike: a guess that smallest_cutoff() betters.
+      // Start with equal errors of both parts; smallest_cutoff() refines the guess.
       double const n = cells_in_all(system.dimension, cells), h = std::pow(volume / n, 1.0 / system.dimension);
       double const q = square(accuracy / scale) / 2 * volume / (n * h * h);
       double const alpha = mesh_errors.alpha_h_of(order, q) / h;
@@ -514,7 +517,7 @@ P3mParameters tune_p3m(P3mSystem const& system, double accuracy, int threads, st
       if (cutoff > 1.1 * half) continue;
       candidates.push_back({order, cells, seconds_of(system, order, cells, std::min(cutoff, half), threads)});
       least = std::min(least, candidates.back().seconds);
-      if (seconds_of(system, order, cells, 0, threads) > least) break;  // finer ones are dearer
+      if (seconds_of(system, order, cells, 0, threads) > least) break;  // finer meshes cost more
     }
   }
   std::stable_sort(candidates.begin(), candidates.end(),

@@ -1,5 +1,5 @@
-// Point sources: nothing but a position and a strength, for pair sums over particles of any class. Private to this
-// room.
+// Point sources: particles that consist of a position and a strength, for pair sums over particles of any class.
+// Private to this module.
 #pragma once
 
 #include <boltzmann/core/instruction_set.hpp>

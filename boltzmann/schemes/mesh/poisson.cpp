@@ -1,4 +1,4 @@
-// Poisson's equation axis by axis: every axis has modes in which the Laplacian is a factor, and a transform of its own.
+// Poisson's equation axis by axis. Every axis has its own transform, to modes in which the Laplacian is a factor.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/number.hpp>
 #include <boltzmann/core/threads.hpp>
@@ -19,10 +19,10 @@ namespace {
 
 struct Scratch {
   Scratch(std::size_t block, std::size_t row) : a(block), b(block), c(row) {}
-  FourierArray a, b, c;  ///< c: a second row of modes, for its slope
+  FourierArray a, b, c;  ///< c: a second row of modes, for the slope
 };
 
-/// A potential on the nodes, with gaps between rows and planes.
+/// A potential on the nodes, with padding between rows and planes.
 struct View {
   double const* data;
   std::size_t row, plane;
@@ -36,7 +36,7 @@ struct Shape {
   int dimension = 1;
   bool complex_rows = false, any_open = false;
   std::size_t columns = 0;         ///< doubles of a transformed row
-  std::size_t row = 0, plane = 0;  ///< from a row, a plane, to the next
+  std::size_t row = 0, plane = 0;  ///< strides of rows and planes
   std::size_t spectrum = 0;        ///< doubles of an array of modes
   std::size_t scratch = 0;         ///< doubles of a block
   std::array<std::size_t, 3> table{1, 1, 1};
@@ -101,7 +101,7 @@ Memory memory(Shape const& shape, MeshGrid const& grid, PoissonForm form, int th
     making = kernel.scratch_size() * (one ? 1 : used);
   }
   std::size_t doubles = shape.spectrum * (slopes && shape.any_open ? 2 : 1) + tables;
-  for (Axis const& axis : shape.axis) doubles += 4 * axis.modes;  // two tables, and about two in the plans
+  for (Axis const& axis : shape.axis) doubles += 4 * axis.modes;  // two tables, and about as much in the plans
   doubles += shape.axis[0].folded_modes() + block_width;
   return {
       sizeof(double) * doubles,
@@ -121,7 +121,7 @@ struct PoissonSolver::Plans {
   Lines x, mid, last;             ///< of the modes
   std::array<Lines, 3> along;     ///< of the potential's lines, for their slopes
   std::vector<double> row_modes;  ///< eigenvalues along x for each column (complex rows: for each pair)
-  std::vector<double> table;      ///< Green's function, if it isn't 1/k^2
+  std::vector<double> table;      ///< Green's function, unless it is 1/k^2
   std::array<std::vector<double>, 3> slope_table;  ///< by slot, for open axes
   FourierArray spectrum, second;
   double scale = 1;
@@ -156,7 +156,7 @@ struct PoissonSolver::Plans {
 
   std::size_t grain(std::size_t items) const { return 1 + items / (4 * static_cast<std::size_t>(threads)); }
 
-  /// function(item, scratch) for all items of a range, by all threads.
+  /// Calls function(item, scratch) for all items of a range, on all threads.
   template <class Function>
   void for_items(Range const& items, Function const& function) const {
     for_ranges(items.size(), grain(items.size()), threads, [&](std::size_t begin, std::size_t end) {
@@ -188,7 +188,7 @@ struct PoissonSolver::Plans {
         }
   }
 
-  /// One small table over the open axes for every mode of the others, in a big one.
+  /// Copies the small table over the open axes for every mode of the others into a large one.
   void make_open_tables() {
     OpenKernel const kernel(shape.open_axes);
     std::array<std::size_t, 3> const stride{1, shape.table[0], shape.table[0] * shape.table[1]};
@@ -236,18 +236,18 @@ struct PoissonSolver::Plans {
   Planes modes(FourierArray& array) const {
     return {array.data(), shape.axis[2].nodes, shape.axis[1].modes, shape.columns, shape.row, shape.plane};
   }
-  /// On the nodes, where modes were.
+  /// The potential on the nodes, in the memory of the modes.
   Planes potential_of(FourierArray& array) const {
     return {array.data(), shape.axis[2].nodes, shape.axis[1].nodes, shape.axis[0].nodes, shape.row, shape.plane};
   }
-  /// As a caller has them.
+  /// The planes of a caller's array.
   Planes on_nodes(double* values) const {
     std::size_t const nx = shape.axis[0].nodes, ny = shape.axis[1].nodes;
     return {values, shape.axis[2].nodes, ny, nx, nx, nx * ny};
   }
   Range samples() const { return {shape.axis[2].first, shape.axis[2].first + shape.axis[2].samples}; }
 
-  /// Density to modes along x and the middle axis.
+  /// Transforms the density to modes along x and the middle axis.
   void forward(double const* density, Range const& planes) {
     Axis const &ax = shape.axis[0], &amid = shape.axis[1];
     for_items(planes.within(samples()), [&](std::size_t node, Scratch& scratch) {
@@ -269,7 +269,8 @@ struct PoissonSolver::Plans {
     });
   }
 
-  /// Along the last axis to modes, times Green's function (or a table of slopes), and back.
+  /// Transforms along the last axis to modes, multiplies by Green's function (or a table of slopes), and transforms
+  /// back.
   void multiply(double amplitude, std::vector<double> const& factors, bool slope, double* to, Range const& lines) {
     Axis const &amid = shape.axis[1], &alast = shape.axis[2];
     std::size_t const blocks = modes(spectrum).blocks_of_row();
@@ -293,7 +294,7 @@ struct PoissonSolver::Plans {
   void divide(double* b, std::size_t column, double mid_eigenvalue, double amplitude) const {
     double const* const last_eigenvalue = shape.axis[2].eigenvalue.data();
     std::size_t const rows = shape.axis[2].modes;
-    auto const run = [&](auto numbers) {  // that share a factor
+    auto const run = [&](auto numbers) {  // lines that share a factor
       constexpr std::size_t lines = block_width / numbers;
       std::array<double, lines> base;
       for (std::size_t i = 0; i < lines; ++i) base[i] = row_modes[column / numbers + i] + mid_eigenvalue;
@@ -326,8 +327,8 @@ struct PoissonSolver::Plans {
     }
   }
 
-  /// Modes along x and the middle axis back to nodes, in place; copied to `values` if given, and the slope along x to
-  /// `x_slope`. If `slope_slot` is 0 or 1, the slope along that axis is taken on the way.
+  /// Transforms modes along x and the middle axis back to nodes, in place. Copies the potential to `values` if given,
+  /// and the slope along x to `x_slope`. If `slope_slot` is 0 or 1, also computes the slope along that axis.
   void backward(double* modes, int slope_slot, double* values, double* x_slope, Range const& planes) {
     Axis const &ax = shape.axis[0], &amid = shape.axis[1], &alast = shape.axis[2];
     for_items(planes, [&](std::size_t node, Scratch& scratch) {
@@ -401,7 +402,8 @@ struct PoissonSolver::Plans {
     }
   }
 
-  /// The slope along one axis, line by line: along the last one of these blocks of lines, else in these planes.
+  /// Computes the slope along one axis, line by line: for the last axis in these blocks of lines, otherwise in these
+  /// planes.
   void slope_along(int slot, View const& phi, double* field, Range const& part) const {
     Axis const &ax = shape.axis[0], &amid = shape.axis[1];
     if (slot == 0) {
@@ -444,7 +446,7 @@ struct PoissonSolver::Plans {
     forward(density.data(), planes);
     ranks.to_lines(modes(spectrum), samples());
 
-    bool slopes_missing = false;  // those that are taken from the potential
+    bool slopes_missing = false;  // slopes that are computed from the potential
     if (field)
       for (int a = 0; a < shape.dimension; ++a) {
         int const slot = shape.slot_of[a];
@@ -470,12 +472,12 @@ struct PoissonSolver::Plans {
     ranks.share(results);
   }
 
-  /// Of the potential in `spectrum`, along the axes from `first` on.
+  /// Computes slopes of the potential in `spectrum`, along the axes from `first` on.
   void slopes(Ranks const& ranks, std::vector<std::vector<double>>& field, int first,
               std::vector<Ranks::Result>& results) {
     Planes const all = potential_of(spectrum);
     View const phi{all.data, all.row, all.plane};
-    if (form == PoissonForm::finite_difference) {  // cheaper than to tell of them
+    if (form == PoissonForm::finite_difference) {  // computing them is cheaper than communicating them
       ranks.share({{all}}, true);
       for (int a = first; a < shape.dimension; ++a) differences(shape.slot_of[a], phi, field[a].data());
       return;

@@ -1,4 +1,4 @@
-// What the ends of an axis make of its modes.
+// Modes of an axis for each combination of ends.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/fourier.hpp>
 #include <boltzmann/core/number.hpp>

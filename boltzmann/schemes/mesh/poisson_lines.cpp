@@ -1,4 +1,4 @@
-// Sines, cosines and exponentials by Fourier transforms, and their slopes.
+// Sine, cosine and exponential modes by Fourier transforms, and their slopes.
 #include <boltzmann/schemes/mesh/poisson_lines.hpp>
 
 #include <cstring>

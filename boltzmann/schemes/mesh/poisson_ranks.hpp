@@ -1,6 +1,6 @@
-// Ranks: what each rank of a team does of a solution of Poisson's equation. It transforms the rows and columns of a range
-// of planes, and a range of the lines along the last axis, whose numbers come from all ranks and go back to them. Private
-// to the solver.
+// Ranks: the part of each rank of a team in a solution of Poisson's equation. A rank transforms the rows and columns of
+// a range of planes, and a range of the lines along the last axis. The numbers of these lines are exchanged with all
+// ranks. Private to the solver.
 #pragma once
 
 #include <boltzmann/core/team.hpp>
@@ -22,20 +22,20 @@ struct Range {
   }
 };
 
-/// Numbers in planes of rows, with gaps between them.
+/// Numbers in planes of rows, with padding between them.
 struct Planes {
   double* data;
   std::size_t count, rows, columns;  ///< of planes, and of what is in them
-  std::size_t row, plane;            ///< from a row, a plane, to the next
+  std::size_t row, plane;            ///< strides of rows and planes
 
-  /// Of a row that many lines are transformed at once.
+  /// The number of blocks of lines in a row.
   std::size_t blocks_of_row() const { return (columns + block_width - 1) / block_width; }
   std::size_t blocks() const { return rows * blocks_of_row(); }
 };
 
 class Ranks {
  public:
-  /// Null: one rank does it all.
+  /// Null: one rank solves alone.
   explicit Ranks(SolvingRanks const* all) : all_(all), team_(all ? all->team : nullptr) {
     if (!team_) return;
     rank_ = static_cast<std::size_t>(team_->rank());
@@ -43,15 +43,15 @@ class Ranks {
   }
 
   bool several() const { return size_ > 1; }
-  /// Of so many planes, or blocks of lines, those of this rank.
+  /// The part of this rank, out of this number of planes or blocks of lines.
   Range own(std::size_t all) const { return of(rank_, all); }
 
-  /// From those who have planes [samples.begin, samples.end) to those who have lines, which then have these whole; and
-  /// back.
+  /// Exchanges data from ranks with planes [samples.begin, samples.end) to ranks with lines, which then have complete
+  /// lines; and back.
   void to_lines(Planes const& array, Range samples) const { turn(array, samples, true); }
   void to_planes(Planes const& array, Range samples) const { turn(array, samples, false); }
 
-  /// Results on the nodes, of which ranks have planes, or lines, to those that read them, or to everybody.
+  /// Sends results on the nodes from ranks with planes, or lines, to the ranks that read them, or to all.
   struct Result {
     Planes array;
     bool by_lines = false;
@@ -70,13 +70,13 @@ class Ranks {
   }
 
  private:
-  /// Blocks of some planes, of those that are read.
+  /// Blocks of those planes that are read.
   struct Part {
     Planes const* array;
     Range planes, blocks;
     char const* read;  ///< null: all
 
-    /// function(first, count) for all that stands side by side.
+    /// Calls function(first, count) for each contiguous range.
     template <class Function>
     void each(Function const& function) const {
       std::size_t const of_row = array->blocks_of_row();
@@ -107,7 +107,7 @@ class Ranks {
              [&](std::size_t r) { return to_lines ? part(r, rank_) : part(rank_, r); });
   }
 
-  /// sent(r) goes to rank r, where received(r) comes from.
+  /// Sends sent(r) to rank r, and receives received(r) from it.
   template <class Sent, class Received>
   void exchange(Sent const& sent, Received const& received) const {
     if (!several()) return;

@@ -1,15 +1,14 @@
-// B-splines: how a particle's strength is spread over the nodes near it, and a field brought back to it, by the same
-// weights.
+// B-splines: the weights with which a particle's strength is spread over nearby nodes, and a field interpolated to it.
 #pragma once
 
 namespace boltzmann {
 
-/// The weights of order p (Hockney and Eastwood, ch. 5): 1 nearest grid point, 2 cloud in cell, 3 triangular shaped
-/// cloud, ... Node base + k has the weight k.
+/// Weights of order p (Hockney and Eastwood, ch. 5): 1 nearest grid point, 2 cloud in cell, 3 triangular shaped cloud,
+/// ... Node base + k has the weight k.
 inline constexpr int highest_order = 7;
 
-/// How many nodes lie before the one that a position is counted from: base = floor(s) - nodes_before, with s the
-/// position in cells, plus one half if the order is odd.
+/// The offset from a position to its first node: base = floor(s) - nodes_before, with s the position in cells, plus one
+/// half if the order is odd.
 constexpr int nodes_before(int order) { return (order - 1) / 2; }
 
 /// The weights of the p nodes from base on, for the fraction f = s - floor(s) in [0, 1): M_p(f + p - 1 - k), by

@@ -1,5 +1,5 @@
-// Tallies: arrays of integers that many threads count into at once. Sums of integers do not depend on their order, so
-// it is open who counts into which.
+// Tallies: arrays of integers in which many threads count at the same time. Sums of integers do not depend on their
+// order, so any thread may use any array.
 #pragma once
 
 #include <boltzmann/core/threads.hpp>
@@ -20,7 +20,7 @@ template <class Number>
 class AlignedArray {
  public:
   explicit AlignedArray(std::size_t size = 0) { resize(size); }
-  /// All become zero.
+  /// Resizes, and sets all to zero.
   void resize(std::size_t size) {
     size_ = size;
     memory_.reset(size == 0 ? nullptr : static_cast<Number*>(std::aligned_alloc(64, bytes())));
@@ -56,8 +56,8 @@ class Tallies {
     return total;
   }
 
-  /// Calls function(begin, end, counts) for ranges of items, each with an array that nobody else is counting into; they
-  /// are made when first wanted. Afterwards arrays() hold the counts.
+  /// Calls function(begin, end, counts) for ranges of items, each with an array that no other thread is using. Arrays
+  /// are created on demand. Afterwards arrays() hold the counts.
   template <class Function>
   void count(std::size_t items, std::size_t grain, int threads, Function const& function) {
     for_ranges(items, grain, threads, [&](std::size_t begin, std::size_t end) {
@@ -69,7 +69,7 @@ class Tallies {
   }
   /// At least one.
   std::vector<std::unique_ptr<AlignedArray<std::int64_t>>>& arrays() { return arrays_; }
-  /// What all have counted, after count(): in the first array.
+  /// After count(): the total of all arrays, in the first one.
   std::int64_t* sum() {
     if (arrays_.empty()) give(take());
     std::int64_t* const counts = arrays_.front()->data();

@@ -13,7 +13,7 @@ double spline_at(int p, double x) {
   return (x * spline_at(p - 1, x) + (p - x) * spline_at(p - 1, x - 1)) / (p - 1);
 }
 
-/// What particles of density x^power inside a wall at x = 0 count on node j, in cells.
+/// The count on node j of particles with density x^power inside a wall at x = 0, in cells.
 double counted(int order, int node, int power) {
   // Weights are polynomials of at most the sixth degree in each half cell: Gauss' rule of four points is exact.
   constexpr double at[4] = {0.0694318442029737, 0.3300094782075719, 0.6699905217924281, 0.9305681557970263};
@@ -37,7 +37,7 @@ WallClouds wall_clouds(int order) {
     clouds.smear.push_back(counted(order, j, 0) - beyond - (j == 0 ? 0.5 : 1));
     clouds.slope.push_back(counted(order, j, 1) + counted(order, -j, 1));
   }
-  // The wall gets all that counts beyond it twice, and its cell is half as large as others.
+  // Counts beyond the wall are added to it twice, and its cell has half the size of others.
   for (int j = 1; j <= reach; ++j) clouds.smear[0] += 2 * counted(order, -j, 0);
   clouds.smear[0] *= 2;
   return clouds;

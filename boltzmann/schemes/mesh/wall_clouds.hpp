@@ -1,4 +1,4 @@
-// What the clouds of particles beside a wall make of a density on the nodes there.
+// The effect of a wall on the density of nearby clouds on nodes.
 #pragma once
 
 #include <cstddef>
@@ -6,18 +6,19 @@
 
 namespace boltzmann {
 
-/// Numbers of an order of assignment, for the nodes from a wall inward that clouds beyond the wall reach:
+/// Coefficients of an order of assignment, for the nodes from a wall inward within the range of clouds beyond the wall:
 /// nodes_before(order) + 1 of them.
 struct WallClouds {
-  /// A uniform density of 1 comes out as 1 + smear[j] beside a grounded wall, where ghosts are extrapolated (Ghosts).
+  /// Beside a grounded wall, where ghosts are extrapolated (Ghosts), a uniform density of 1 is measured as 1 +
+  /// smear[j].
   std::vector<double> smear;
-  /// The density x/h, with x the distance from the wall, comes out as slope[j] beside a mirror.
+  /// Beside a mirror, the density x/h, with x the distance from the wall, is measured as slope[j].
   std::vector<double> slope;
 };
 WallClouds wall_clouds(int order);
 
-/// Extrapolates densities on the `count` nodes of a line, `stride` apart, to its low (high) end, which is a mirror: nodes
-/// beside it hold the mean over clouds and their images, which is of first order where the density has a slope.
+/// Extrapolates densities on the `count` nodes of a line, `stride` apart, to its low (high) end, which is a mirror.
+/// Nodes beside it hold the mean over clouds and their images, which is only of first order if the density has a slope.
 /// Uniform densities keep their bits.
 void extrapolate_to_wall(WallClouds const& clouds, double* line, std::size_t count, std::size_t stride, bool high);
 

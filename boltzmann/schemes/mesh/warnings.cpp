@@ -1,5 +1,5 @@
-// What a plasma run should know before it starts: Debye length, plasma frequency, particles per cell, steps per cell
-// (Birdsall and Langdon, Plasma Physics via Computer Simulation, sections 4.2, 8.13, 13.3).
+// Checks of plasma runs before they start: Debye length, plasma frequency, particles per cell, steps per cell (Birdsall
+// and Langdon, Plasma Physics via Computer Simulation, sections 4.2, 8.13, 13.3).
 #include <boltzmann/core/exact_sum.hpp>
 #include <boltzmann/schemes/mesh/mesh_work.hpp>
 
@@ -43,7 +43,7 @@ SpeciesOnMesh measure_species(AnyEnsemble const& ensemble, SourceKind const& kin
   return result;
 }
 
-/// The Debye length in cells, 0 where a species is cold.
+/// The Debye length in cells; 0 if a species is cold.
 struct DebyeLength {
   double cells;
   bool cold;
@@ -52,8 +52,8 @@ DebyeLength debye_length(std::vector<SpeciesOnMesh> const& all, double frequency
   double inverse2 = 0;
   bool cold = false;
   for (SpeciesOnMesh const& species : all) {
-    if (std::abs(species.plasma_frequency2) <= 0.01 * std::abs(frequency2)) continue;  // heavy ones follow slowly
-    // A species whose thermal motion would not bring it a millionth of a cell far in a plasma period is cold.
+    if (std::abs(species.plasma_frequency2) <= 0.01 * std::abs(frequency2)) continue;  // heavy particles respond slowly
+    // A species is cold if its thermal motion in a plasma period is below a millionth of a cell.
     if (species.thermal2 <= 1e-12 * spacing * spacing * std::abs(species.plasma_frequency2))
       cold = true;
     else
@@ -64,8 +64,8 @@ DebyeLength debye_length(std::vector<SpeciesOnMesh> const& all, double frequency
 
 }  // namespace
 
-/// Particles that leave a mesh along an axis that is open for them end the run: warns where some leave in the first
-/// steps, and of walls of the field alone in any case.
+/// Particles that leave the mesh along an open axis end the run. Warns if some leave in the first steps, and always of
+/// walls that only the field has.
 std::vector<std::string> MeshScheme::Work::warn_of_open_axes(MeshScheme const& scheme, double step_size) {
   constexpr double first_steps = 10;
   constexpr char const* cure = "make the box larger, or write boundary = \"reflecting\" for this axis of [box]";

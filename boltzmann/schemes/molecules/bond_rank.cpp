@@ -1,4 +1,4 @@
-// Orthogonal directions from the rates of bonds, in coordinates weighted by the roots of masses.
+// Orthogonal directions of the rates of bonds, in coordinates weighted by the square roots of masses.
 #include <boltzmann/schemes/molecules/bond_rank.hpp>
 
 #include <boltzmann/core/error.hpp>
@@ -14,13 +14,13 @@
 namespace boltzmann {
 namespace {
 
-constexpr double dependent = 1e-4;       // of a unit row, that others leave
-constexpr double contradiction = 1e-4;   // of a length
+constexpr double dependent = 1e-4;       // remainder of a unit row below which it is dependent on others
+constexpr double contradiction = 1e-4;   // relative error of a length
 constexpr double most_work = 5e10;       // products for one basis
-constexpr std::size_t most_shared = 64;  // bonds of a chain whose shares are found exactly
+constexpr std::size_t most_shared = 64;  // greatest number of bonds of a chain whose shares are computed exactly
 
-/// An orthonormal basis of the rows of the constraint matrix, by Gram and Schmidt with pivoting: of each bond chosen its
-/// coefficients by the directions up to its own.
+/// An orthonormal basis of the rows of the constraint matrix, by Gram-Schmidt with pivoting. For each chosen bond, its
+/// coefficients in the directions up to its own.
 struct RowBasis {
   std::size_t columns = 0;
   std::vector<std::size_t> chosen = {};
@@ -33,7 +33,7 @@ double norm_of_row(BondedMolecule const& of, std::size_t k) {
   return std::sqrt(1 / of.masses[i] + 1 / of.masses[j]);
 }
 
-/// Rows of unit length: the rate of a bond's length.
+/// The row of a bond's rate of length, normalised.
 std::vector<double> row_of(BondedMolecule const& of, std::vector<Vector<3>> const& places, std::size_t k) {
   auto const D = static_cast<std::size_t>(of.dimension);
   std::vector<double> row(D * of.places.size(), 0.0);
@@ -50,7 +50,7 @@ double product(std::vector<double> const& a, std::vector<double> const& b) {
   return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
 }
 
-/// Rows that others leave less than `least` of are not chosen.
+/// Rows with a remainder below `least` are not chosen.
 RowBasis basis_of(BondedMolecule const& of, std::vector<Vector<3>> const& places, double least) {
   RowBasis basis;
   std::size_t const count = of.bonds.size();
@@ -68,7 +68,7 @@ RowBasis basis_of(BondedMolecule const& of, std::vector<Vector<3>> const& places
     if (best == count) break;
     used[best] = true;
     auto direction = left[best];
-    for (auto const& other : basis.directions) {  // once more, against rounding
+    for (auto const& other : basis.directions) {  // repeated, to reduce rounding
       double const part = product(direction, other);
       for (std::size_t c = 0; c < direction.size(); ++c) direction[c] -= part * other[c];
     }
@@ -86,15 +86,15 @@ RowBasis basis_of(BondedMolecule const& of, std::vector<Vector<3>> const& places
   return basis;
 }
 
-/// By how much a bond is too long.
+/// The excess of a bond's length.
 double excess(BondedMolecule const& of, std::vector<Vector<3>> const& places, std::size_t k) {
   return magnitude(places[of.bonds[k][1]] - places[of.bonds[k][0]]) - of.lengths[k];
 }
 
-/// The nearest places at which the bonds have their lengths, by Newton's method along the rows.
+/// The nearest positions at which the bonds have their lengths, by Newton's method along the rows.
 std::vector<Vector<3>> settled_places(BondedMolecule const& of) {
   constexpr int max_turns = 60;
-  constexpr double least = 1e-9;  // at lines and planes rows become dependent only as they are reached
+  constexpr double least = 1e-9;  // on lines and planes, rows become dependent only in the limit
   auto const D = static_cast<std::size_t>(of.dimension);
   auto places = of.places;
   for (int turn = 0; turn < max_turns; ++turn) {
@@ -130,7 +130,7 @@ void refuse_contradiction(BondedMolecule const& of, std::vector<Vector<3>> const
                   excess(of, places, worst) + of.lengths[worst]));
 }
 
-/// Of each particle the part of the space of constraints that is its own.
+/// The fraction of the constraint space that belongs to each particle.
 std::vector<double> shares_of(RowBasis const& basis, std::size_t particles) {
   std::vector<double> taken(particles, 0.0);
   std::size_t const D = basis.columns / particles;
@@ -139,7 +139,7 @@ std::vector<double> shares_of(RowBasis const& basis, std::size_t particles) {
   return taken;
 }
 
-/// Of a body: what is not free of each particle, the motion with the centre and about it.
+/// For a body: the part of each particle that is not free; the motion with and about the centre is free.
 std::vector<double> shares_of_body(BondedMolecule const& of, std::vector<Vector<3>> const& places, bool line) {
   Vector<3> centre{0, 0, 0};
   double mass = 0;
@@ -153,7 +153,7 @@ std::vector<double> shares_of_body(BondedMolecule const& of, std::vector<Vector<
     for (std::size_t a = of.dimension == 3 ? 0 : 2; a < 3 && of.dimension > 1; ++a) {
       Vector<3> axis{0, 0, 0};
       axis[a] = 1;
-      Vector<3> const moved = cross(axis, arms[i]);  // its torque turns it by
+      Vector<3> const moved = cross(axis, arms[i]);  // its displacement in the rotation due to its torque
       Vector<3> const torque = cross(arms[i], moved) * of.masses[i];
       free += dot(axis, solved(inertia, line, torque));
     }
@@ -162,7 +162,7 @@ std::vector<double> shares_of_body(BondedMolecule const& of, std::vector<Vector<
   return taken;
 }
 
-/// Makes shares whole multiples of 2^-30 whose sum is the rank, so that sums over molecules are exact.
+/// Rounds shares to multiples of 2^-30 whose sum is the rank, so that sums over molecules are exact.
 void round_shares(std::vector<double>& taken, std::size_t rank) {
   constexpr double unit = 1.0 / (1 << 30);
   double left = static_cast<double>(rank);
@@ -182,14 +182,14 @@ std::size_t generic_rank(BondedMolecule const& of) {
   return basis_of(of, places, 1e-7).chosen.size();
 }
 
-/// Without rings: all bonds are independent.
+/// A molecule without rings: all bonds are independent.
 BondRank rank_of_tree(BondedMolecule const& of) {
   BondRank result{.places = of.places, .rank = of.bonds.size()};
   result.independent.resize(of.bonds.size());
   std::iota(result.independent.begin(), result.independent.end(), std::size_t{0});
   if (of.bonds.size() <= most_shared) {
     result.taken = shares_of(basis_of(of, of.places, 1e-7), of.places.size());
-  } else {  // of long chains each bond by itself
+  } else {  // in long chains, each bond is treated separately
     result.taken.assign(of.places.size(), 0.0);
     for (auto const& [i, j] : of.bonds) {
       double const part = of.masses[j] / (of.masses[i] + of.masses[j]);
@@ -200,7 +200,7 @@ BondRank rank_of_tree(BondedMolecule const& of) {
   return result;
 }
 
-/// Bonds in rings: a body, or a molecule that bends.
+/// Bonds in rings: a body, or a flexible molecule.
 BondRank rank_of_rings(BondedMolecule const& of) {
   std::size_t const n = of.places.size(), m = of.bonds.size(), columns = n * static_cast<std::size_t>(of.dimension);
   if (static_cast<double>(m) * static_cast<double>(std::min(m, columns)) * static_cast<double>(columns) > most_work)

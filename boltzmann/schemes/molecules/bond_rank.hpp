@@ -1,4 +1,5 @@
-// What the rigid bonds of one molecule fix: how many of them are independent, and whether they make it a rigid body.
+// Properties of the rigid bonds of one molecule: the number of independent bonds, and whether they make it a rigid
+// body.
 #pragma once
 
 #include <boltzmann/core/vector.hpp>
@@ -11,27 +12,27 @@
 
 namespace boltzmann {
 
-/// A molecule by the numbers of its own particles, from 0; all of them are joined.
+/// A molecule with its own particle numbers, from 0; all of them are connected.
 struct BondedMolecule {
   int dimension = 3;
-  std::vector<Vector<3>> places = {};  ///< one image of the molecule
+  std::vector<Vector<3>> places = {};  ///< of one image of the molecule
   std::vector<double> masses = {};
   std::vector<BondMembers> bonds = {};
   std::vector<double> lengths = {};
-  std::vector<std::uint32_t> numbers = {};  ///< of the particles in their ensemble, for errors
+  std::vector<std::uint32_t> numbers = {};  ///< numbers of the particles in their ensemble, for error messages
 };
 
 struct BondRank {
   std::vector<Vector<3>> places = {};  ///< nearest to those of the molecule, with the lengths of the bonds
-  bool body = false;                   ///< nothing but its place and its direction is free
+  bool body = false;                   ///< only position and orientation are free
   std::size_t rank = 0;
-  std::vector<std::size_t> independent = {};  ///< bonds from which all others follow; of a body all are named
-  std::vector<double> taken = {};             ///< of each particle: Mobility::taken, whose sum is the rank
+  std::vector<std::size_t> independent = {};  ///< bonds that determine all others; for a body, all bonds
+  std::vector<double> taken = {};             ///< per particle: Mobility::taken; the sum is the rank
 };
 
-/// The rank is that of the bonds' rates of change as linear functions of the velocities. Molecules without rings have as
-/// many independent bonds as bonds. Error, in words that follow "the rigid bonds of the molecule of particle 0", if
-/// lengths contradict each other, or if the particles are in a line or a plane in which the bonds don't hold them.
+/// The rank of the bonds' rates of change as linear functions of the velocities. In molecules without rings all bonds
+/// are independent. Throws Error, in words that follow "the rigid bonds of the molecule of particle 0", if lengths are
+/// contradictory, or if the particles are on a line or a plane in which the bonds don't hold them.
 BondRank rank_of_bonds(BondedMolecule const& molecule);
 
 }  // namespace boltzmann

@@ -1,4 +1,4 @@
-// Tuples of molecules: first the forces of each, then each particle sums those on it, in the order of tuples.
+// Tuples of molecules: computes the forces of each tuple, then each particle sums its forces in the order of tuples.
 #include <boltzmann/schemes/molecules/molecule_scheme.hpp>
 
 #include <boltzmann/core/error.hpp>
@@ -61,16 +61,16 @@ struct MoleculeScheme::Group {
   TupleKernels kernels;
   LawPointer law;
   bool reads_outside;
-  std::vector<std::uint32_t> slot;  // of each member: where the force on it goes
-  std::vector<std::size_t> start;   // of each particle: its first slot
+  std::vector<std::uint32_t> slot;  // for each member: the slot for its force
+  std::vector<std::size_t> start;   // for each particle: its first slot
   std::vector<double> forces;
-  // In a run that is divided, of tuples that have a particle of this rank's share:
+  // In a divided run: data of tuples that include an owned particle of this rank.
   std::vector<std::uint32_t> own_members = {}, own_slot = {};
-  std::uint64_t division = 0, changes = 0;  // when they were found
+  std::uint64_t division = 0, changes = 0;  // counters at the time of their selection
 
   std::size_t count() const { return members.size() / each; }
 
-  /// Particles own slots one behind the other, each in the order of tuples.
+  /// The slots of a particle are contiguous, in the order of tuples.
   void assign_slots() {
     start.assign(ensemble->size() + 1, 0);
     for (auto const i : members) ++start[i + 1];
@@ -80,12 +80,12 @@ struct MoleculeScheme::Group {
     forces.resize(members.size() * static_cast<std::size_t>(ensemble->dimension()));
   }
 
-  /// Those that a share needs, unless they are known.
+  /// Finds the tuples of this rank's particles, unless they are up to date.
   void find_own(Division const& of) {
     if (division == of.id() && changes == of.changes()) return;
     division = of.id();
     changes = of.changes();
-    std::vector<std::uint32_t> tuple_of(members.size());  // that fills a slot
+    std::vector<std::uint32_t> tuple_of(members.size());  // the tuple that fills each slot
     for (std::size_t k = 0; k < members.size(); ++k) tuple_of[slot[k]] = static_cast<std::uint32_t>(k / each);
     std::vector<bool> own(count());
     for (auto const& [begin, end] : ensemble->share()->stretches)
@@ -185,7 +185,7 @@ void MoleculeScheme::add_influences(double) {
   }
 }
 
-/// Rows of members elsewhere come with those of neighbours, where there are lists.
+/// Rows of remote members arrive with those of neighbours, if there are lists.
 void MoleculeScheme::divide(Division* division) {
   division_ = division;
   if (!division) return;
@@ -203,7 +203,8 @@ std::optional<std::uint64_t> MoleculeScheme::revision() const {
   return revision_with({});
 }
 
-/// Each member has an equal share of what its tuple has. Every rank measures all, for whom all rows are brought.
+/// Each member has an equal share of its tuple's energy and virial. Every rank measures all tuples, after an exchange
+/// of all rows.
 EnergyAndVirial MoleculeScheme::measure(double) {
   if (division_) division_->make_whole();
   auto measures = EnergyAndVirial::known();
@@ -245,7 +246,7 @@ EnergyAndVirial MoleculeScheme::measure(double) {
   return measures;
 }
 
-/// Neighbours in a tuple that are at one place give it no angle, whichever of its members is asked about.
+/// Coincident neighbours in a tuple have no angle, whichever of its members was given.
 std::string MoleculeScheme::explain(AnyEnsemble const& ensemble, std::size_t i) const {
   for (auto const& group : groups_) {
     if (group->ensemble != &ensemble) continue;

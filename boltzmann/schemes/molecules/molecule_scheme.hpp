@@ -1,5 +1,5 @@
-// MoleculeScheme: forces inside molecules, by the angles of three particles and the dihedrals of four. Bonds are pairs:
-// PairScheme::connect().
+// MoleculeScheme: forces inside molecules, from the angles of three particles and the dihedrals of four. Bonds are
+// pairs: PairScheme::connect().
 #pragma once
 
 #include <boltzmann/laws/formula_law.hpp>
@@ -21,26 +21,27 @@ class MoleculeScheme final : public Scheme {
   explicit MoleculeScheme(Box box);
   ~MoleculeScheme() override;
 
-  /// An energy by the angle (0 to pi) at the second of each three particles, over nearest images on periodic axes; law(angle)
-  /// gives an AngularEnergy (laws/angular.hpp). Error in 1D, of numbers beyond the ensemble, or of one twice in a tuple.
+  /// An energy of the angle (0 to pi) at the second of each three particles, over nearest images on periodic axes;
+  /// law(angle) returns an AngularEnergy (laws/angular.hpp). Throws Error in 1D, for numbers beyond the ensemble, or
+  /// for a number that occurs twice in a tuple.
   template <class P, AngularLaw Law>
   void angles(Ensemble<P>& ensemble, std::vector<AngleMembers> const& angles, Law const& law) {
     static_assert(P::dimension > 1, "in 1D there are no angles");
     add_tuples(ensemble, 3, flat(angles), tuple_kernels<detail::AngleOf<P::dimension>, Law>(), law);
   }
-  /// An energy by the dihedral (-pi to pi) of each four particles about the line from the second to the third: 0 in cis, pi in
-  /// trans. Of particles in 3D.
+  /// An energy of the dihedral (-pi to pi) of each four particles about the line from the second to the third: 0 in
+  /// cis, pi in trans. For particles in 3D.
   template <class P, AngularLaw Law>
   void dihedrals(Ensemble<P>& ensemble, std::vector<DihedralMembers> const& dihedrals, Law const& law) {
     static_assert(P::dimension == 3, "there are dihedrals in 3D only");
     add_tuples(ensemble, 4, flat(dihedrals), tuple_kernels<detail::DihedralOf, Law>(), law);
   }
-  // The same with a formula, an energy in `angle` or `dihedral`: FormulaPartError if it is wrong.
+  // The same with a formula, an energy in `angle` or `dihedral`. Throws FormulaPartError if it is invalid.
   void angles(AnyEnsemble& ensemble, std::vector<AngleMembers> const& angles, FormulaLaw const& law);
   void dihedrals(AnyEnsemble& ensemble, std::vector<DihedralMembers> const& dihedrals, FormulaLaw const& law);
 
-  /// Rigid bonds of one of its ensembles, or of another: their virial belongs to the measures from now on. What keeps
-  /// them is the integrator of with_rigid_bonds() and, behind baths, RigidVelocities.
+  /// Rigid bonds of one of its ensembles, or of another. From now on their virial is part of the measures. The
+  /// integrator of with_rigid_bonds() enforces the constraints and, after heat baths, RigidVelocities.
   void keeps(std::shared_ptr<RigidBonds const> bonds);
   std::vector<std::shared_ptr<RigidBonds const>> const& rigid_bonds() const { return rigid_; }
 
@@ -82,7 +83,7 @@ class MoleculeScheme final : public Scheme {
   void add_tuples(AnyEnsemble& ensemble, std::size_t each, std::vector<std::uint32_t> members, FormulaLaw const& law);
 
   double quantum_ = 0;
-  Division* division_ = nullptr;  // while a run is divided
+  Division* division_ = nullptr;  // set during a divided run
   std::vector<std::unique_ptr<Group>> groups_;
   std::vector<std::shared_ptr<RigidBonds const>> rigid_;
 };

@@ -1,5 +1,5 @@
-// The traversal of tuples: lanes are tuples, a block of them at a time; each writes the forces on its members into slots
-// of their own.
+// The traversal of tuples. Each lane is a tuple, and a block of them is processed together; each tuple writes the
+// forces on its members into its own slots.
 #pragma once
 
 #include <boltzmann/laws/angular.hpp>
@@ -11,7 +11,7 @@
 
 namespace boltzmann {
 
-/// True if law(angle) can be called with packs and gives an AngularEnergy.
+/// True if law(angle) accepts packs and returns an AngularEnergy.
 template <class Law>
 concept AngularLaw = requires(Law const& law, Pack<double> const& angle) {
   { law(angle) } -> std::same_as<AngularEnergy<Pack<double>>>;
@@ -21,7 +21,7 @@ namespace detail {
 
 inline constexpr std::size_t block_tuples = 128;
 
-/// The derivatives by the angles of a block, and the energies.
+/// The derivatives with respect to the angles of a block, and the energies.
 template <int W, class Law>
 class AngularBlock {
  public:
@@ -46,7 +46,7 @@ class AngularBlock {
   Real angle_[packs], slope_[packs], energy_[packs];
 };
 
-/// The member of the tuples first, first + 1, ... as W positions; past the last one, that one again.
+/// The positions of a member of W tuples from `first` on. Past the end, the last tuple is repeated.
 template <class Geometry, int W>
 [[gnu::always_inline]] inline Vector<Geometry::dimension, Pack<double, W>> member_positions(TupleTask const& task,
                                                                                             std::size_t first,
@@ -61,7 +61,7 @@ template <class Geometry, int W>
   return x;
 }
 
-/// Every tuple is calculated by itself: the result has the same bits for every division into ranges.
+/// Tuples are computed independently, so the result has the same bits for every division into ranges.
 template <bool measure, int W, class Geometry, class Law>
 void over_tuples(void const* the_law, TupleTask const& task, std::size_t begin, std::size_t end) {
   using Real = Pack<double, W>;

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double straight = 1e-4;
 
-/// The x of a matrix with these columns times x = b, by Cramer's rule.
+/// Solves matrix x = b for x by Cramer's rule; the matrix is given by columns.
 Vector<3> solved(std::array<Vector<3>, 3> const& column, Vector<3> const& b) {
   auto const across = cross(column[1], column[2]);
   double const scale = 1 / dot(column[0], across);
@@ -17,14 +17,14 @@ Vector<3> solved(std::array<Vector<3>, 3> const& column, Vector<3> const& b) {
           dot(column[0], cross(column[1], b)) * scale};
 }
 
-/// Axes of a frame in which the first of these vectors is along x, and the second in the plane of x and y.
+/// Axes of a frame with the first of these vectors along x, and the second in the plane of x and y.
 std::array<Vector<3>, 3> frame_along(Vector<3> const& first, Vector<3> const& second) {
   Vector<3> const x = first * (1 / magnitude(first)), across = second - x * dot(x, second);
   Vector<3> const y = across * (1 / magnitude(across));
   return {x, y, cross(x, y)};
 }
 
-/// Any direction across another one, always the same: the frame of a line.
+/// A fixed choice of a direction perpendicular to this one, for the frame of a line.
 Vector<3> any_across(Vector<3> const& line) {
   std::size_t least = 0;
   for (std::size_t a = 1; a < 3; ++a)
@@ -34,7 +34,7 @@ Vector<3> any_across(Vector<3> const& line) {
   return axis;
 }
 
-/// The frame that three particles of a body span. In a plane the third axis stands on it.
+/// The frame spanned by three particles of a body. In two dimensions the third axis is the normal of the plane.
 std::array<Vector<3>, 3> frame_of(RigidShape const& shape, std::span<Vector<3> const> places, int dimension) {
   Vector<3> const first = places[shape.along] - places[0];
   if (shape.line) return frame_along(first, any_across(first));
@@ -103,7 +103,7 @@ SymmetricMatrix inertia_of(std::span<Vector<3> const> arms, std::span<double con
 }
 
 Vector<3> solved(SymmetricMatrix const& inertia, bool line, Vector<3> const& b) {
-  if (line) return b * (2 / (inertia[0] + inertia[1] + inertia[2]));  // its trace is twice the inertia across it
+  if (line) return b * (2 / (inertia[0] + inertia[1] + inertia[2]));  // its trace is twice the inertia across the line
   return solved({Vector<3>{inertia[0], inertia[3], inertia[4]}, Vector<3>{inertia[3], inertia[1], inertia[5]},
                  Vector<3>{inertia[4], inertia[5], inertia[2]}},
                 b);
@@ -111,7 +111,7 @@ Vector<3> solved(SymmetricMatrix const& inertia, bool line, Vector<3> const& b) 
 
 namespace {
 
-/// Of a line along u with the inertia J: u' with J u x u' = torque, for the torque across it is all there is.
+/// For a line along u with the inertia J: finds u' with J u x u' = torque. Only the torque across the line acts.
 bool turn_line(Vector<3> const& torque, double inertia, std::span<Vector<3> const> arms, std::span<Vector<3>> ways) {
   Vector<3> const* longest = &arms[0];
   for (auto const& arm : arms)
@@ -127,7 +127,7 @@ bool turn_line(Vector<3> const& torque, double inertia, std::span<Vector<3> cons
 /// The vector part p of the unit quaternion (p0, p) of the rotation: p0 I p + p x I p = torque / 2, by Newton's method.
 std::optional<Vector<3>> half_rotation(SymmetricMatrix const& inertia, Vector<3> const& torque) {
   constexpr int max_turns = 30;
-  constexpr double largest = 0.5;  // square of the sine of half a right angle
+  constexpr double largest = 0.5;  // squared sine of half a right angle
   Vector<3> const half = torque * 0.5;
   double const scale = std::sqrt(dot(half, half));
   Vector<3> p = solved(inertia, false, half);

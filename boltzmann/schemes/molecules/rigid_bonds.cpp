@@ -1,4 +1,4 @@
-// Which bonds make a molecule, what each molecule is, and the loop over molecules.
+// Assigns bonds to molecules, classifies each molecule, and has the loop over molecules.
 #include <boltzmann/schemes/molecules/rigid_bonds.hpp>
 
 #include <boltzmann/core/error.hpp>
@@ -57,7 +57,8 @@ void RigidBonds::add(std::vector<BondMembers> const& bonds, double length) {
   find_molecules();
 }
 
-/// Bonds that share a particle, directly or by others, stand side by side, in the order in which they were named.
+/// Sorts bonds such that those connected directly or through others are contiguous, in the order in which they were
+/// added.
 void RigidBonds::find_molecules() {
   std::vector<std::uint32_t> root(particles_);
   std::iota(root.begin(), root.end(), 0U);
@@ -107,7 +108,7 @@ RigidBonds::Member RigidBonds::member(std::uint32_t i) const {
 
 Vector<3> RigidBonds::between(std::uint32_t i, std::uint32_t j) const {
   Vector<3> d{0, 0, 0};
-  bool across = false;  // seldom: nearest images cost more than all else
+  bool across = false;  // rarely true: nearest images would cost more than everything else
   for (int a = 0; a < box_.dimension(); ++a) {
     d[a] = ensemble_.row(j)[a] - ensemble_.row(i)[a];
     across = across || std::abs(d[a]) > 0.5 * box_.length(a);
@@ -162,7 +163,7 @@ void RigidBonds::check_lengths() const {
                               bonds_[k][0], bonds_[k][1], ensemble_.name(), length, length_[k]));
 }
 
-/// What each molecule is, for positions near its lengths; `move`: puts bodies there.
+/// Classifies each molecule, for positions near its lengths; `move`: moves bodies to their exact shape.
 void RigidBonds::prepare(bool move) {
   if (prepared_ && !move) return;
   check_size();
@@ -176,7 +177,7 @@ void RigidBonds::prepare(bool move) {
 void RigidBonds::examine(Molecule& molecule, bool move) {
   std::span const members(member_.data() + molecule.members, molecule.size);
   BondedMolecule of{.dimension = box_.dimension()};
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> number;  // of a particle: its number in the molecule
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> number;  // for each particle: its number in the molecule
   for (std::uint32_t k = 0; k < members.size(); ++k) {
     std::uint32_t const anchor = anchor_[molecule.members + k];
     of.places.push_back(k == 0 ? Vector<3>{0, 0, 0} : of.places[anchor] + between(members[anchor], members[k]));
@@ -209,7 +210,7 @@ void RigidBonds::examine(Molecule& molecule, bool move) {
         member(members[k]).position[a] += found.places[k][a] - of.places[k][a];
     return;
   }
-  // Those that are solved first, in their order.
+  // The bonds that are solved first, in their order.
   std::vector<BondMembers> bonds;
   std::vector<double> lengths;
   std::vector<bool> solved(of.bonds.size(), false);

@@ -1,4 +1,4 @@
-// Rigid bonds: distances that stay what they are, by forces along the bonds (SHAKE and RATTLE).
+// Rigid bonds: distance constraints, enforced by forces along the bonds (SHAKE and RATTLE).
 #pragma once
 
 #include <boltzmann/boundaries/box.hpp>
@@ -20,51 +20,54 @@
 
 namespace boltzmann {
 
-/// The rigid bonds of an ensemble of particles with mass and velocity. Positions are put back onto the lengths along the
-/// bonds of the step's beginning (J.-P. Ryckaert, G. Ciccotti and H. J. C. Berendsen, J. Comput. Phys. 23, 327 (1977)),
-/// velocities lose what would stretch a bond (H. C. Andersen, J. Comput. Phys. 52, 24 (1983)): the leap-frog of the
-/// constrained equations, of second order and reversible to the tolerance. Molecules are solved each by itself, so that
-/// threads change no bit. The box, and the ensemble, outlive it.
+/// The rigid bonds of an ensemble of particles with mass and velocity. Positions are corrected along the bonds at the
+/// beginning of the step (J.-P. Ryckaert, G. Ciccotti and H. J. C. Berendsen, J. Comput. Phys. 23, 327 (1977)).
+/// Velocities lose the components that stretch a bond (H. C. Andersen, J. Comput. Phys. 52, 24 (1983)). This is the
+/// leap-frog of the constrained equations, of second order and reversible to the tolerance. Molecules are solved
+/// independently, so that results do not depend on threads. The box and the ensemble must outlive this object.
 ///
-/// A molecule whose bonds leave it nothing but its place and its direction is a body (rigid_body.hpp), whatever the number
-/// of its particles; triangles have a way of their own (rigid_triangle.hpp), which is faster. Of others the independent bonds are solved in turn, in their order, until all of them hold.
+/// If bonds leave only position and orientation free, the molecule is a body (rigid_body.hpp) of any number of
+/// particles. Triangles have a faster method (rigid_triangle.hpp). In other molecules the independent bonds are solved
+/// in turn, in their order, until all of them hold.
 class RigidBonds {
  public:
-  /// `length` of all these bonds; to how much of it positions and velocities keep to it, where no body does. Error if a
-  /// bond names what is not there, or is named twice, a length or the tolerance is not positive, or the box has walls that
-  /// reflect (they would bend bonds).
+  /// The `length` of all these bonds, and the relative tolerance of positions and velocities for molecules that are not
+  /// bodies. Throws Error if a bond names a missing particle or occurs twice, a length or the tolerance is not
+  /// positive, or the box has reflecting walls (they would bend bonds).
   RigidBonds(AnyEnsemble& ensemble, Box const& box, std::vector<BondMembers> const& bonds, double length,
              double tolerance = 1e-10);
-  /// Further bonds, of another length.
+  /// Adds bonds of another length.
   void add(std::vector<BondMembers> const& bonds, double length);
 
   AnyEnsemble& ensemble() const { return ensemble_; }
   Box const& box() const { return box_; }
-  /// All bonds. Some may follow from others.
+  /// All bonds, including dependent ones.
   std::size_t size() const { return bonds_.size(); }
   std::vector<BondMembers> const& bonds() const { return bonds_; }
-  /// Degrees of freedom that they take: the rank, summed over molecules, and of each particle (Mobility::taken). Errors as
-  /// of settle(), if that was not called.
+  /// The number of constrained degrees of freedom: the rank, summed over molecules, and for each particle
+  /// (Mobility::taken). Throws Error as settle() does, if that was not called.
   std::size_t rank();
   std::span<double const> taken_freedom();
 
-  /// In a run that is divided, what follows is of the molecules of this rank's share, each of which has one owner from now
-  /// on.
+  /// In a divided run, the following functions apply to the molecules of this rank. From now on each molecule has a
+  /// single owner.
   void keep_together(Division& division) const;
 
-  /// Puts positions exactly where the bonds want them, and takes from velocities what stretches bonds: the start of a run.
-  /// Error if a bond is off by more than a quarter of its length, or bonds can't hold together (rank_of_bonds()).
+  /// Moves positions exactly onto the constraints, and removes velocity components that stretch bonds, at the start of
+  /// a run. Throws Error if a bond is off by more than a quarter of its length, or the bonds are contradictory
+  /// (rank_of_bonds()).
   void settle(int threads = 1);
-  /// Notes the bonds of now, before the positions move.
+  /// Stores the current bonds, before the positions move.
   void begin_step(int threads);
-  /// Moves positions back onto the lengths, and changes velocities by as much over dt. PhysicsFailure if they can't be
-  /// found.
+  /// Moves positions back onto the constraints, and changes velocities by the displacement over dt. Throws
+  /// PhysicsFailure if there is no solution.
   void correct_positions(double dt, int threads);
-  /// Takes from velocities what stretches bonds; the kinetic energy that this adds, in a run that is divided on all ranks.
+  /// Removes velocity components that stretch bonds. Returns the change of the kinetic energy, in a divided run the
+  /// total over all ranks.
   double correct_velocities(int threads, Division* division = nullptr);
-  /// The virial of the forces in the bonds, for the positions, velocities and influences of now. That of each bond belongs
-  /// half to each end; in bodies that of each particle is its arm from the centre of mass times what holds it. Adds to 9
-  /// numbers a particle, of all molecules.
+  /// Adds the virial of the forces in the bonds, for the current positions, velocities and influences, to 9 numbers per
+  /// particle, of all molecules. The virial of a bond belongs half to each end. In bodies, that of each particle is its
+  /// arm from the centre of mass times its constraint force.
   void add_virial(std::vector<double>& per_particle) const;
 
  private:
@@ -74,10 +77,10 @@ class RigidBonds {
     double inverse_mass;
   };
   struct Molecule {
-    std::size_t bonds, solved, end;  ///< the first bond; behind those that are solved in turn; behind the last
-    std::size_t members, size;       ///< the first particle in members_, and how many
-    std::size_t shape;               ///< in shapes_; none: no body
-    bool triangle = false;           ///< a body that RigidTriangle moves
+    std::size_t bonds, solved, end;  ///< the first bond; the end of those solved in turn; the end of all
+    std::size_t members, size;       ///< the first particle in members_, and their number
+    std::size_t shape;               ///< index in shapes_; none: not a body
+    bool triangle = false;           ///< a body that uses RigidTriangle
   };
   struct BodyMotion;
 
@@ -119,14 +122,14 @@ class RigidBonds {
   std::vector<BondMembers> bonds_;
   std::vector<double> length_;
   std::vector<Molecule> molecules_;      // in the order of their first particles
-  std::vector<std::uint32_t> member_;    // particles of each molecule, each behind one that it is bonded to
-  std::vector<std::uint32_t> anchor_;    // of each of these: which member, of the same molecule, that one is
-  std::vector<std::uint32_t> first_of_;  // of each particle: the first one of its molecule
-  std::vector<std::uint32_t> molecule_;  // of each particle that is the first one: its molecule
+  std::vector<std::uint32_t> member_;    // particles of each molecule, each after one to which it is bonded
+  std::vector<std::uint32_t> anchor_;    // for each of these: index of that one in the same molecule
+  std::vector<std::uint32_t> first_of_;  // for each particle: the first one of its molecule
+  std::vector<std::uint32_t> molecule_;  // for each particle that is the first one: its molecule
   std::vector<RigidShape> shapes_;       // of bodies
-  std::vector<double> taken_;            // of each particle
+  std::vector<double> taken_;            // per particle
   std::vector<Vector<3>> before_;        // bonds at the beginning of a step
-  std::vector<Vector<3>> arms_;          // of members of bodies, then
+  std::vector<Vector<3>> arms_;          // of members of bodies, at the same time
 };
 
 }  // namespace boltzmann

@@ -1,4 +1,4 @@
-// Molecules that rigid bonds make bodies.
+// Molecules whose rigid bonds make them bodies.
 #include <boltzmann/schemes/molecules/rigid_bonds.hpp>
 
 #include <array>
@@ -7,7 +7,7 @@
 namespace boltzmann {
 namespace {
 
-/// Numbers of one molecule, without allocation where it has few particles.
+/// Temporary numbers of one molecule, without allocation for few particles.
 template <class T>
 class Scratch {
  public:
@@ -24,14 +24,14 @@ class Scratch {
 
 }  // namespace
 
-/// The motion of a body as its particles move: of its centre, and about it.
+/// The motion of a body: of its centre, and about it.
 struct RigidBonds::BodyMotion {
   double mass = 0;
   Vector<3> velocity{0, 0, 0}, rotation{0, 0, 0};
   SymmetricMatrix inertia{};
 };
 
-/// The arms of a body now, its exact shape turned as its particles are.
+/// The current arms of a body: its exact shape in the orientation of its particles.
 void RigidBonds::arms_of(Molecule const& body, std::span<Vector<3>> arms) const {
   Scratch<Vector<3>> places(body.size);
   Scratch<double> masses(body.size);
@@ -47,7 +47,7 @@ bool RigidBonds::correct_body(Molecule const& body, double dt) {
   auto const D = static_cast<std::size_t>(box_.dimension());
   double const per_time = dt != 0 ? 1 / dt : 0;
   auto const arms = noted_arms(body);
-  Scratch<Vector<3>> moved(body.size);  // from where the body was, the way of the first particle less
+  Scratch<Vector<3>> moved(body.size);  // displacements in the body, relative to that of the first particle
   Scratch<double> masses(body.size);
   Vector<3> centre{0, 0, 0}, torque{0, 0, 0};
   double mass = 0;
@@ -88,7 +88,7 @@ RigidBonds::BodyMotion RigidBonds::motion_of(Molecule const& body, std::span<Vec
     for (std::size_t a = 0; a < D; ++a) momentum[a] = m * row[static_cast<std::size_t>(velocity_) + a];
     motion.mass += m;
     motion.velocity += momentum;
-    spin += cross(arms[k], momentum);  // arms have no mean, so that the velocity of the centre is not in it
+    spin += cross(arms[k], momentum);  // arms have zero mean, so the velocity of the centre cancels
   }
   motion.velocity *= 1 / motion.mass;
   motion.inertia = inertia_of(arms, masses.all());
@@ -96,7 +96,7 @@ RigidBonds::BodyMotion RigidBonds::motion_of(Molecule const& body, std::span<Vec
   return motion;
 }
 
-/// The motion of a body with these velocities is the nearest to them, by kinetic energy.
+/// Projects the velocities onto those of a body; the result is the nearest in kinetic energy.
 std::optional<double> RigidBonds::correct_body_velocities(Molecule const& body) {
   auto const D = static_cast<std::size_t>(box_.dimension());
   auto const arms = noted_arms(body);
@@ -115,7 +115,7 @@ std::optional<double> RigidBonds::correct_body_velocities(Molecule const& body) 
   return -lost;
 }
 
-/// What holds a particle is its mass times the acceleration that it has in the body, less that of its influence.
+/// The constraint force on a particle is its mass times its acceleration in the body, minus its influence.
 void RigidBonds::add_body_virial(Molecule const& body, std::vector<Vector<3>> const& acceleration,
                                  std::vector<double>& per_particle) const {
   std::vector<Vector<3>> arms(body.size);

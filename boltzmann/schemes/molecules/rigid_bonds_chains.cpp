@@ -1,4 +1,4 @@
-// Molecules that bend: their bonds in turn, until all of them hold.
+// Flexible molecules: solves their bonds in turn, until all of them hold.
 #include <boltzmann/schemes/molecules/rigid_bonds.hpp>
 
 #include <algorithm>
@@ -24,7 +24,7 @@ bool RigidBonds::correct_bonds(Molecule const& chain, double dt) {
       holds = false;
       Member const p = member(bonds_[k][0]), q = member(bonds_[k][1]);
       double const along = dot(now, before_[k]);
-      if (!(along > 1e-3 * square)) return false;  // it has turned by a right angle in one step
+      if (!(along > 1e-3 * square)) return false;  // it has rotated by a right angle in one step
       double const push = off / (2 * (p.inverse_mass + q.inverse_mass) * along);
       for (int a = 0; a < D; ++a) {
         double const part = push * before_[k][a];
@@ -41,7 +41,7 @@ bool RigidBonds::correct_bonds(Molecule const& chain, double dt) {
 std::optional<double> RigidBonds::correct_bond_velocities(Molecule const& chain) {
   int const D = box_.dimension();
   for (std::size_t k = chain.bonds; k < chain.solved; ++k)
-    before_[k] = between(bonds_[k][0], bonds_[k][1]);  // no more needed
+    before_[k] = between(bonds_[k][0], bonds_[k][1]);  // its old value is no longer needed
   double added = 0;
   bool holds = false;
   for (int turn = 0; turn < max_turns && !holds; ++turn) {
@@ -57,7 +57,7 @@ std::optional<double> RigidBonds::correct_bond_velocities(Molecule const& chain)
       if (!(std::abs(along) > tolerance_ * length_[k] * speed)) continue;
       holds = false;
       double const inverse = p.inverse_mass + q.inverse_mass, push = along / (inverse * dot(d, d));
-      // What it does to the kinetic energy: the work of the impulse at the mean velocity.
+      // The change of the kinetic energy: the work of the impulse at the mean velocity.
       added -= push * along - 0.5 * push * push * inverse * dot(d, d);
       for (int a = 0; a < D; ++a) {
         p.velocity[a] += p.inverse_mass * push * d[a];
@@ -68,7 +68,7 @@ std::optional<double> RigidBonds::correct_bond_velocities(Molecule const& chain)
   return holds ? std::optional(added) : std::nullopt;
 }
 
-/// The forces that keep the second derivatives of all squares zero: r.(a_q - a_p) + |v_q - v_p|^2 = 0.
+/// The forces for which the second derivatives of all squared lengths vanish: r.(a_q - a_p) + |v_q - v_p|^2 = 0.
 void RigidBonds::add_bond_virial(Molecule const& chain, std::vector<Vector<3>>& acceleration,
                                  std::vector<double>& per_particle) const {
   int const D = box_.dimension();

@@ -1,5 +1,5 @@
-// Molecules of three particles at three distances, which are most of all: by RigidTriangle, which is 1.5 times as fast as
-// a body of any number of particles.
+// Molecules of three particles at three distances, the most frequent kind. RigidTriangle is 1.5 times as fast as the
+// general body.
 #include <boltzmann/schemes/molecules/rigid_bonds.hpp>
 #include <boltzmann/schemes/molecules/rigid_triangle.hpp>
 
@@ -45,7 +45,7 @@ std::optional<double> RigidBonds::correct_triangle_velocities(Molecule const& mo
     Member const p = member(triangle->particles[i]);
     auto const change = triangle->momentum(i, now, *push) * p.inverse_mass;
     for (int a = 0; a < D; ++a) p.velocity[a] += change[a];
-    added -= 0.5 * (*push)[i] * along[i];  // the bonds' rates are zero after it
+    added -= 0.5 * (*push)[i] * along[i];  // the bonds' rates are zero afterwards
   }
   return push ? std::optional(added) : std::nullopt;
 }

@@ -1,4 +1,4 @@
-// Each group as a tree of bonds, so that it can be put together across the ends of a box.
+// Stores each group as a tree of bonds, so that it can be assembled across the ends of a periodic box.
 #include <boltzmann/schemes/molecules/rigid_groups.hpp>
 
 namespace boltzmann {
@@ -39,7 +39,7 @@ RigidGroups::Body RigidGroups::body(std::size_t group, Box const& box, std::vect
   Body body;
   for (std::size_t k = 0; k < members.size(); ++k) {
     double const* const row = ensemble_.row(members[k]);
-    if (k > 0) {  // arms are those from the first member for now
+    if (k > 0) {  // arms are relative to the first member for now
       double const* const before = ensemble_.row(members[anchor[k]]);
       for (int a = 0; a < D; ++a) arms[k][a] = row[a] - before[a];
       box.nearest_image(arms[k].component);

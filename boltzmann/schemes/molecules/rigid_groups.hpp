@@ -1,4 +1,4 @@
-// Rigid groups: the particles that rigid bonds join, directly or by others, seen as bodies.
+// Rigid groups: particles connected by rigid bonds, directly or through others, treated as bodies.
 #pragma once
 
 #include <boltzmann/boundaries/box.hpp>
@@ -13,7 +13,7 @@
 
 namespace boltzmann {
 
-/// The groups of an ensemble of particles with mass and velocity. Those that no bond joins are groups of one.
+/// The groups of an ensemble of particles with mass and velocity. Particles without bonds are groups of one.
 class RigidGroups {
  public:
   RigidGroups(AnyEnsemble& ensemble, std::span<BondMembers const> bonds);
@@ -22,7 +22,7 @@ class RigidGroups {
   std::span<std::uint32_t const> members(std::size_t group) const {
     return std::span(member_).subspan(start_[group], start_[group + 1] - start_[group]);
   }
-  /// Of each member, which one of the same group it is bonded to: one before it.
+  /// For each member: an earlier member of the same group to which it is bonded.
   std::span<std::uint32_t const> anchors(std::size_t group) const {
     return std::span(anchor_).subspan(start_[group], start_[group + 1] - start_[group]);
   }
@@ -33,13 +33,14 @@ class RigidGroups {
     Vector<3> centre{0, 0, 0};    ///< of mass, near the first member
     Vector<3> velocity{0, 0, 0};  ///< of the centre
   };
-  /// A group as it stands. `arms`: of each member from the centre, by the nearest images along its bonds.
+  /// The current state of a group. `arms`: from the centre to each member, by the nearest images along its bonds.
   Body body(std::size_t group, Box const& box, std::vector<Vector<3>>& arms) const;
 
  private:
   AnyEnsemble& ensemble_;
   int mass_, velocity_;
-  std::vector<std::uint32_t> member_, anchor_;  // which member of the same group, named before, each one is bonded to
+  // for each one: an earlier member of the same group to which it is bonded
+  std::vector<std::uint32_t> member_, anchor_;
   std::vector<std::size_t> start_{0};
 };
 

@@ -1,8 +1,7 @@
-// Three particles at three fixed distances, as rigid water has them: all bonds at once, by Newton's method.
-//
-// V. Kraeutler, W. F. van Gunsteren and P. H. Huenenberger, J. Comput. Chem. 22, 501 (2001), for any masses and lengths;
-// S. Miyamoto and P. A. Kollman, J. Comput. Chem. 13, 952 (1992), have the same positions in closed form for two equal
-// masses.
+// Three particles at three fixed distances, as in rigid water: all bonds together, by Newton's method.
+// V. Kraeutler, W. F. van Gunsteren and P. H. Huenenberger, J. Comput. Chem. 22, 501 (2001), for any masses and
+// lengths; S. Miyamoto and P. A. Kollman, J. Comput. Chem. 13, 952 (1992), have the same positions in closed form for
+// two equal masses.
 #pragma once
 
 #include <boltzmann/core/vector.hpp>
@@ -22,7 +21,7 @@ class RigidTriangle {
   using Numbers = std::array<double, 3>;
   using Bonds = std::array<Vector<3>, 3>;
 
-  /// Three bonds between three particles; nothing else.
+  /// Creates the triangle if there are exactly three bonds between three particles.
   static std::optional<RigidTriangle> of(std::span<BondMembers const> bonds) {
     if (bonds.size() != 3) return {};
     RigidTriangle triangle;
@@ -42,8 +41,8 @@ class RigidTriangle {
     return triangle;
   }
 
-  /// By which multiples of the bonds `before` the momenta of their ends change (that of the first by +, of the second by
-  /// -), so that the bonds `now` get their lengths to `tolerance`. None if that is not found.
+  /// The multiples of the bonds `before` by which the momenta of their ends change (first +, second -), so that the
+  /// bonds `now` have their lengths to `tolerance`. None if there is no solution.
   std::optional<Numbers> pushes(Bonds const& before, Bonds now, Numbers const& lengths, double tolerance) const {
     Numbers push{};
     for (int turn = 0; turn < 12; ++turn) {
@@ -53,7 +52,7 @@ class RigidTriangle {
         double const square = lengths[k] * lengths[k];
         off[k] = dot(now[k], now[k]) - square;
         holds = holds && std::abs(off[k]) <= 2 * tolerance * square;
-        if (!(dot(now[k], before[k]) > 1e-3 * square)) return {};  // turned by a right angle, or not finite
+        if (!(dot(now[k], before[k]) > 1e-3 * square)) return {};  // rotated by a right angle, or not finite
       }
       if (holds) return push;
       auto const more = solved([&](std::size_t k, std::size_t l) { return 2 * dot(now[k], before[l]); }, off);
@@ -66,13 +65,13 @@ class RigidTriangle {
     return {};
   }
 
-  /// The same for velocities: what takes the rates `along` at which the ends of the bonds part, times their lengths. None
-  /// if the bonds are no triangle.
+  /// The same for velocities: cancels the rates `along` at which the ends of the bonds separate, times their lengths.
+  /// None if the bonds are not a triangle.
   std::optional<Numbers> impulses(Bonds const& bonds, Numbers const& along) const {
     return solved([&](std::size_t k, std::size_t l) { return dot(bonds[k], bonds[l]); }, along);
   }
 
-  /// What such pushes do to the momentum of a particle.
+  /// The change of a particle's momentum by such pushes.
   Vector<3> momentum(std::size_t particle, Bonds const& bonds, Numbers const& push) const {
     Vector<3> sum{0, 0, 0};
     for (std::size_t k = 0; k < 3; ++k) {
@@ -86,7 +85,7 @@ class RigidTriangle {
   Numbers inverse_masses{};
 
  private:
-  /// What a push by 1 along bond l changes of bond k, in units of the former.
+  /// The change of bond k by a unit push along bond l, in units of the push.
   double effect(std::size_t k, std::size_t l) const {
     auto const sign = [&](std::size_t particle) {
       return (end_[k][1] == particle ? 1.0 : 0.0) - (end_[k][0] == particle ? 1.0 : 0.0);
@@ -94,7 +93,7 @@ class RigidTriangle {
     return inverse_masses[end_[l][0]] * sign(end_[l][0]) - inverse_masses[end_[l][1]] * sign(end_[l][1]);
   }
 
-  /// The x of sum_l factor(k, l) effect(k, l) x_l = -right_k, by Cramer's rule.
+  /// Solves sum_l factor(k, l) effect(k, l) x_l = -right_k for x by Cramer's rule.
   template <class Factor>
   std::optional<Numbers> solved(Factor const& factor, Numbers const& right) const {
     std::array<Vector<3>, 3> column;

@@ -1,4 +1,4 @@
-// The kernels of angular laws that are formulas, for one instruction set.
+// The kernels of angular laws given as formulas, for one instruction set.
 #include <boltzmann/core/kernel_unit.hpp>
 #include <boltzmann/formulas/evaluate.hpp>
 #include <boltzmann/laws/angular_program.hpp>
@@ -8,7 +8,7 @@
 namespace boltzmann {
 namespace detail {
 
-/// By the program, on the angles as a column.
+/// Runs the program on a column of angles.
 template <int W>
 class AngularBlock<W, AngularProgram> {
  public:

@@ -1,4 +1,4 @@
-// The kernels of angular laws that are formulas.
+// The kernels of angular laws given as formulas.
 #pragma once
 
 #include <boltzmann/core/instruction_set.hpp>
@@ -10,7 +10,7 @@ namespace boltzmann {
 struct TupleFormulaKernels {
   TupleKernels angles[2];  ///< in 2D, 3D
   TupleKernels dihedrals;  ///< in 3D
-  int code_width = 0;      ///< as of FormulaKernelTable
+  int code_width = 0;      ///< as in FormulaKernelTable
 };
 template <InstructionSet set>
 TupleFormulaKernels const& tuple_formula_kernels();

@@ -1,4 +1,4 @@
-// The angle of three particles and the dihedral of four: their values and how these change with each position.
+// The angle of three particles and the dihedral of four: values and derivatives with respect to each position.
 #pragma once
 
 #include <boltzmann/core/pack.hpp>
@@ -9,7 +9,7 @@
 namespace boltzmann {
 namespace detail {
 
-/// By the C library, lane by lane.
+/// Calls the C library lane by lane.
 template <int W>
 inline Pack<double, W> atan2(Pack<double, W> y, Pack<double, W> x) {
   Pack<double, W> angle;
@@ -17,10 +17,11 @@ inline Pack<double, W> atan2(Pack<double, W> y, Pack<double, W> x) {
   return angle;
 }
 
-/// sin^2 below which an angle counts as straight, or folded: the direction in which it changes is lost to rounding there.
+/// sin^2 below which an angle counts as straight or folded: the direction of its gradient is then lost to rounding.
 inline constexpr double straight = 1e-12;
 
-/// W tuples of N particles: an angle, its derivative by the position of each, and where each is seen from the second.
+/// W tuples of N particles: the angle, its derivative with respect to each position, and each position relative to the
+/// second.
 template <int N, int D, class Real>
 struct TupleAngle {
   Real angle;
@@ -33,7 +34,7 @@ template <int D>
 struct AngleOf {
   static constexpr int members = 3, dimension = D;
 
-  /// `steps`: from each particle to the next.
+  /// `steps`: the vector from each particle to the next.
   template <class Real>
   [[gnu::always_inline]] static TupleAngle<3, D, Real> at(Vector<D, Real> const (&steps)[2]) {
     auto const a = -steps[0], b = steps[1];

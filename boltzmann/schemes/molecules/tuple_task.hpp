@@ -1,14 +1,14 @@
-// What a kernel of tuples is given, as plain memory.
+// The arguments of kernels of tuples, as plain memory.
 #pragma once
 
 #include <boltzmann/schemes/pair/pair_task.hpp>
 
 namespace boltzmann {
 
-/// Tuples of particles of one ensemble (`target`) under one law. Energies and virials are whole ones, of each tuple.
+/// Tuples of particles of one ensemble (`target`) under one law. Energies and virials are those of whole tuples.
 struct TupleTask : PairTask {
   std::uint32_t const* members = nullptr;  ///< particle numbers of each tuple
-  std::uint32_t const* slot = nullptr;     ///< where the force on each member goes: which vector of `influence`
+  std::uint32_t const* slot = nullptr;     ///< for each member: the vector of `influence` that receives its force
 };
 
 using TupleKernel = void (*)(void const* law, TupleTask const& task, std::size_t begin, std::size_t end);

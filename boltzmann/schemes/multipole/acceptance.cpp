@@ -1,4 +1,4 @@
-// What the moments of a node, and its cores, leave of its surroundings to expansions.
+// Computes limits for expansions from the moments and cores of nodes.
 #include <boltzmann/schemes/multipole/acceptance.hpp>
 
 #include <limits>
@@ -20,7 +20,7 @@ void AcceptanceCriterion<Kind>::add(std::size_t number, Tree<typename Kind::Sour
   limits_[number] = limits_of(number, node.radius, moments, numbers);
 }
 
-/// From those of the children, or of the particles.
+/// Combines those of the children, or of the particles.
 template <class Kind>
 typename AcceptanceCriterion<Kind>::Cores AcceptanceCriterion<Kind>::cores_of(
     TreeNode const& node, Tree<typename Kind::Source> const& tree) const {
@@ -42,16 +42,17 @@ typename AcceptanceCriterion<Kind>::Cores AcceptanceCriterion<Kind>::cores_of(
   return all;
 }
 
-/// With P_n the power of the moments of order n, a the radius, p the order, and e the error that is allowed, the first
-/// order that is cut off from the moments makes less than e further than
+/// Notation: P_n the power of the moments of order n, a the radius, p the order, e the allowed error, Q the largest
+/// P_n / a^n. The first order truncated from the moments contributes less than e at distances from their centre above
 ///   D = a ((p + 2) P_p / (e a^2))^(1/(p+3))   in 3D (2D: a (P_p / (e a))^(1/(p+2)))
-/// from their centre, and that cut off from the local expansion of a node of radius b, if the sources are further than
+/// The first order truncated from the local expansion of a node of radius b contributes less than e if the distance of
+/// the sources from its centre is above
 ///   D = ((p + 1) Q b^p / e)^(1/(p+2))         (2D: (Q b^p / e)^(1/(p+1)))
-/// from its centre, Q the largest P_n / a^n. All further orders together make 1 / (1 - a / D)^2 times that (2D: to the
-/// power 1), which margin() a allows for. What two terms of Plummer's series are off by is less than e beyond
+/// All further orders together contribute 1 / (1 - a / D)^2 times that (2D: to the power 1), which margin() a includes.
+/// The error of two terms of Plummer's series is less than e beyond
 ///   D = (10 eps^2 Q max(a, b)^2 / e)^(1/6)    (2D: (5 eps^2 Q max(a, b)^2 / e)^(1/5)),
-/// and what one eps for all of a node is off by, beyond D = (3/2 (greatest eps^2 - least eps^2) Q / e)^(1/4). The
-/// algebraic one is K = -3/8 eps^4 / r^5 (2D: -1/4 eps^4 / r^4) far away, which gives
+/// and the error of a single eps for all of a node, beyond D = (3/2 (greatest eps^2 - least eps^2) Q / e)^(1/4). The
+/// algebraic softening is K = -3/8 eps^4 / r^5 (2D: -1/4 eps^4 / r^4) far away, which gives
 ///   D = (40 eps^4 Q max(a, b)^2 / e)^(1/8)    (2D: (15 eps^4 Q max(a, b)^2 / e)^(1/7))
 ///   D = (15/8 (greatest eps^4 - least eps^4) Q / e)^(1/6)    (2D: ((greatest eps^4 - least eps^4) Q / e)^(1/5)).
 template <class Kind>
@@ -65,7 +66,7 @@ typename AcceptanceCriterion<Kind>::Limits AcceptanceCriterion<Kind>::limits_of(
     for (int density = 0; density < Kind::densities; ++density) {
       double const* const m = moments + static_cast<std::size_t>(density) * numbers;
       if constexpr (D == 3)
-        for (int k = 0; k <= 2 * n; ++k) power += (k > 0 ? 2 : 1) * m[n * n + k] * m[n * n + k];  // of m and of -m
+        for (int k = 0; k <= 2 * n; ++k) power += (k > 0 ? 2 : 1) * m[n * n + k] * m[n * n + k];  // for m and -m
       else
         power += (m[2 * n] * m[2 * n] + m[2 * n + 1] * m[2 * n + 1]) * (n > 0 ? n * n : 1);
     }
@@ -89,7 +90,7 @@ typename AcceptanceCriterion<Kind>::Limits AcceptanceCriterion<Kind>::limits_of(
   return limits;
 }
 
-/// `strength`: Q / e; the squares of eps in the mean, the least, and the greatest.
+/// `strength`: Q / e; squares of eps: mean, least and greatest.
 template <class Kind>
 void AcceptanceCriterion<Kind>::limit_softening(Limits& limits, double a, double strength, double mean, double least,
                                                 double most) const {

@@ -1,5 +1,5 @@
-// AcceptanceCriterion: how far from each other nodes have to be to act by expansions, so that no interaction errs by
-// more than is allowed. Private to this room.
+// AcceptanceCriterion: the distance at which nodes may interact by expansions, so that no interaction exceeds the
+// allowed error. Private to this module.
 #pragma once
 
 #include <boltzmann/schemes/multipole/multipole_kinds.hpp>
@@ -20,17 +20,18 @@ class AcceptanceCriterion {
 
   explicit AcceptanceCriterion(typename Kind::Law const& law) : law_(law) {}
 
-  /// For expansions of this order; `error`: of the field that one node makes in another, over the constant of the law.
+  /// Starts for expansions of this order. `error`: the allowed error of the field of one node in another, over the
+  /// constant of the law.
   void start(int order, double error, std::size_t nodes);
-  /// Takes a node with its moments (of all densities, each so many numbers), after its children.
+  /// Adds a node with its moments (of all densities, each this number of doubles), after its children.
   void add(std::size_t number, Tree<typename Kind::Source> const& tree, double const* moments, std::size_t numbers);
 
-  /// What the radius of a target counts for below.
+  /// The effective radius of a target in the functions below.
   double reach_of(TreeNode const& target) const {
     double const p = order_;
     return std::pow(target.radius, p / (p + (D == 3 ? 2 : 1)));
   }
-  /// Between the centres of nodes whose expansions act on each other. `softened`: the law is, between these.
+  /// Between the centres of nodes whose expansions interact. `softened`: the law between them is softened.
   double between(TreeNode const& target, std::size_t target_number, double reach, TreeNode const& source,
                  std::size_t source_number, bool softened) const {
     Limits const& limits = limits_[source_number];
@@ -47,7 +48,7 @@ class AcceptanceCriterion {
     if (!softened) return distance;
     return std::max({distance, limits.soft * limits.soft_size, limits.spread, source.radius + limits.core});
   }
-  /// From the centre of a target to particles of a source that are taken into its local expansion one by one.
+  /// From the centre of a target to particles of a source that are added individually to its local expansion.
   double inside(TreeNode const& target, std::size_t target_number, double reach, std::size_t source_number,
                 bool softened) const {
     Limits const& limits = limits_[source_number];
@@ -56,7 +57,7 @@ class AcceptanceCriterion {
     return std::max({distance, limits.soft * limits_[target_number].soft_size, target.radius + limits.core});
   }
 
-  /// The square of what a node is softened by in the mean, and of the largest core of all.
+  /// The mean squared softening of a node, and that of the largest core.
   double softening2(std::size_t number) const {
     if constexpr (Kind::own_cores) return cores_[number].mean();
     return softest2();
@@ -67,7 +68,7 @@ class AcceptanceCriterion {
     else
       return law_.softening * law_.softening;
   }
-  /// Calls function(first, bytes of a node) for each array of what is known of nodes.
+  /// Calls function(first, bytes per node) for each array of node data.
   template <class Function>
   void each_array(Function const& function) {
     function(limits_.data(), sizeof(Limits));
@@ -76,21 +77,21 @@ class AcceptanceCriterion {
   std::size_t bytes() const { return limits_.capacity() * sizeof(Limits) + cores_.capacity() * sizeof(Cores); }
 
  private:
-  static constexpr double nearest = 1.1;  // of what an expansion's radius is: nearer, it hardly converges
+  static constexpr double nearest = 1.1;  // relative to the radius of an expansion; convergence is poor below
 
   /// See limits_of().
   struct Limits {
     double source = 0, size = 0, soft = 0, soft_size = 0, spread = 0;
-    double core = 0;  ///< of its particles that are further than this
+    double core = 0;  ///< for particles further away than this
   };
-  /// What the particles of a node are softened by: squares of the least and of the most, and in the mean.
+  /// The softening of the particles of a node: least and greatest square, and mean square.
   struct Cores {
     double least = 0, most = 0, sum = 0, weight = 0;
     double mean() const { return weight > 0 ? sum / weight : most; }
   };
 
   double margin() const { return D == 3 ? 3.2 / (order_ + 2) : 1.6 / (order_ + 1); }
-  /// From the centre of a target to particles of a source that are in its local expansion.
+  /// From the centre of a target to particles of a source that its local expansion includes.
   double local(TreeNode const& target, double reach, std::size_t source_number) const {
     return std::max(nearest * target.radius, limits_[source_number].size * reach + margin() * target.radius);
   }
@@ -101,8 +102,8 @@ class AcceptanceCriterion {
   typename Kind::Law law_;
   int order_ = 0;
   double error_ = 0;
-  std::vector<Limits> limits_;  // of each node
-  std::vector<Cores> cores_;    // of each node, if each particle has its own
+  std::vector<Limits> limits_;  // per node
+  std::vector<Cores> cores_;    // per node, if particles have individual cores
 };
 
 }  // namespace boltzmann

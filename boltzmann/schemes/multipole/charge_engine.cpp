@@ -41,7 +41,7 @@ class ChargeEngine final : public EngineOf<Charges<D>> {
                          [&](LoadedSources const& one, std::size_t, std::size_t k, typename Base::Point& point) {
                            point.amount = one.acts ? strengths_[k] : 0;
                          });
-    // In a crystal all that a particle feels may cancel: a hundredth of what a neighbour does.
+    // In a crystal all influences on a particle may cancel. Use a hundredth of that of a neighbour.
     least_field_ = 0;
     if (this->any_periodic())
       least_field_ = 1e-2 * this->constant() * std::sqrt(squares.value() / static_cast<double>(this->count())) *
@@ -86,7 +86,8 @@ class ChargeEngine final : public EngineOf<Charges<D>> {
       for (std::size_t i = 0; i < energies.size(); ++i) {
         energies[i] = (one.acts ? 0.5 : 1) * strengths_[at + i] * this->potential()[at + i];
         potential += energies[i];
-        // The sum over pairs of r_a F_b, since the forces of all cancel: that over particles of their place and force.
+        // The sum over pairs of r_a F_b equals the sum over particles of position times force, because all forces
+        // cancel.
         for (std::size_t a = 0; a < D; ++a)
           for (std::size_t b = 0; b < D; ++b)
             virial[a][b] += one.ensemble->row(i)[a] * strengths_[at + i] * this->field()[(at + i) * D + b];
@@ -96,7 +97,7 @@ class ChargeEngine final : public EngineOf<Charges<D>> {
     }
     measures.potential = potential.value();
     measures.reciprocal = reaction;
-    measures.driven = !reaction;  // who makes the field works on them
+    measures.driven = !reaction;  // the sources do work on them
     if (this->any_periodic())
       measures.no_virial =
           "multipoles in a periodic box don't have it (P3M does); in 3D, unsoftened, its trace is the potential energy";
@@ -111,7 +112,7 @@ class ChargeEngine final : public EngineOf<Charges<D>> {
   bool singular() const override { return law_.softening == 0; }
 
  private:
-  std::vector<double> strengths_;  // to what is felt
+  std::vector<double> strengths_;  // times the field gives the influence
   double least_field_ = 0;
 };
 

@@ -26,7 +26,7 @@ class Component {
   }
 
  private:
-  /// Without the factor it is stored with, also of negative m: F_n^-m = (-1)^m conj F_n^m.
+  /// Without the stored factor, also for negative m: F_n^-m = (-1)^m conj F_n^m.
   std::complex<double> at(int n, int m) const {
     if (n < 0 || n > order_ || m > n || -m > n) return 0;
     int const k = m < 0 ? -m : m;
@@ -40,7 +40,7 @@ class Component {
   bool moments_;
 };
 
-/// With `factors` of the coefficients of what it makes.
+/// `factors` are those of the result's coefficients.
 void curl(Component const (&components)[3], ExpansionView const& to, double const* factors, double radius, double* curl,
           std::size_t stride) {
   for (std::size_t i = 0; i < 3; ++i) {

@@ -1,4 +1,4 @@
-// Who is compared, and for how many each stands.
+// Selection and weights of samples.
 #include <boltzmann/core/exact_sum.hpp>
 #include <boltzmann/core/random.hpp>
 #include <boltzmann/schemes/multipole/error_samples.hpp>
@@ -11,7 +11,7 @@
 namespace boltzmann {
 namespace {
 
-/// Several hundred samples, or more as long as that takes hardly any time.
+/// Several hundred samples, or more if they take little time.
 std::size_t sample_count(std::size_t candidates, std::size_t particles, std::size_t least) {
   return std::min(candidates, std::max(least, 20'000'000 / std::max<std::size_t>(1, particles)));
 }
@@ -28,7 +28,7 @@ ErrorSamples::ErrorSamples(MultipoleEngine const& engine, std::size_t particles,
   for (std::size_t i = shuffled_.size(); i > 1; --i) std::swap(shuffled_[i - 1], shuffled_[stream.bits() % i]);
 }
 
-/// The mean of those that are left when the fiftieth with the largest is taken away.
+/// The mean without the largest fiftieth of the values.
 double ErrorSamples::typical(std::vector<Square> squares) {
   std::stable_sort(squares.begin(), squares.end(), [](auto const& a, auto const& b) { return a.value < b.value; });
   double all = 0, kept = 0;
@@ -55,7 +55,7 @@ double ErrorSamples::typical_field() {
   return std::sqrt(typical(std::move(squares))) / engine_.constant();
 }
 
-/// Ranks of 2 m, 8 m, 32 m, ... particles, each in their order of chance; m of each rank, all of the first.
+/// Ranks of 2 m, 8 m, 32 m, ... particles, each in random order; takes m samples of each rank, and all of the first.
 std::vector<ErrorSamples::Sample> ErrorSamples::by_ranks() const {
   std::vector<Sample> samples;
   std::size_t const of_each = wanted_ == shuffled_.size() ? wanted_ : std::max<std::size_t>(wanted_ / 8, 1);
@@ -74,7 +74,7 @@ std::vector<ErrorSamples::Sample> ErrorSamples::by_ranks() const {
   return samples;
 }
 
-/// Of those for whom it is not known yet.
+/// Computes exact influences of the samples that lack them.
 void ErrorSamples::find_exact(std::vector<Sample> const& samples) {
   std::vector<std::size_t> wanted;
   for (auto const& sample : samples)

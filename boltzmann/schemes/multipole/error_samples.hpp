@@ -1,7 +1,8 @@
-// ErrorSamples: particles whose influence is compared with direct sums, and what that says of the error of all. Errors
-// have a long tail: of ten thousand particles a few may make most of them, those that stand at the edge of a node that is
-// as near to what acts on it as is allowed. So particles are ranked by how near they came to that, and samples are drawn
-// from ranks: all of the first, one of four of the next, and so on. Private to this room.
+// ErrorSamples: particles whose influence is compared with direct sums, and the resulting error estimate for all
+// particles. Errors have a long tail: of ten thousand particles a few may contribute most of the error, those at the
+// edge of a node that just satisfies the acceptance criterion. So particles are ranked by their closeness to the
+// criterion (nearness), and samples are stratified: all of the first rank, one of four of the next, and so on. Private
+// to this module.
 #pragma once
 
 #include <boltzmann/schemes/multipole/multipole_engine.hpp>
@@ -15,22 +16,22 @@ namespace boltzmann {
 
 class ErrorSamples {
  public:
-  /// Of the first `particles` of an engine; only those that feel something. At least so many are drawn, if there are as
-  /// many; what they feel exactly is known to this part of it.
+  /// Samples from the first `particles` of an engine that feel an influence, at least this number if there are as many.
+  /// Their exact influences have this relative accuracy.
   ErrorSamples(MultipoleEngine const& engine, std::size_t particles, std::size_t least, double exact_to, int threads);
 
-  /// The field in the mean, over that of a unit strength at distance 1; without the fiftieth of all that is felt most,
-  /// since a few that are near to each other would count for all.
+  /// The mean field, over that of a unit strength at distance 1. The fiftieth with the strongest fields is excluded,
+  /// because a few close pairs would dominate.
   double typical_field();
 
-  /// The rms error of the engine's last calculation, which was watched, over what is felt in the mean (without the
-  /// fiftieth that feels most); 0 if nothing is felt.
+  /// The rms error of the engine's last calculation, which recorded nearness, over the mean influence (without the
+  /// strongest fiftieth); 0 if there are no influences.
   double error();
 
  private:
   struct Sample {
     std::uint32_t particle;
-    double weight;  ///< for how many it stands
+    double weight;  ///< the number of particles that it represents
   };
   struct Square {
     double value, weight;
@@ -44,7 +45,7 @@ class ErrorSamples {
   std::size_t wanted_;
   double exact_to_;
   int threads_;
-  std::vector<std::uint32_t> shuffled_;  // those that feel something, in an order of chance
+  std::vector<std::uint32_t> shuffled_;  // those that feel an influence, in random order
   std::unordered_map<std::uint32_t, std::size_t> place_;
   std::vector<double> exact_;
 };

@@ -18,9 +18,9 @@ class Exchange {
 
   double operator()(int m, int k) const { return std::abs(m) > n_ || std::abs(k) > n_ ? 0 : values_[index(n_, m, k)]; }
 
-  /// From n to n + 1. d/dz of Y is the Y of n - 1; exchanged, it is d/dx, which is half the difference of two
-  /// neighbours: that gives all k but the outermost. These follow from the matrix being symmetric once each Y is
-  /// divided by its norm, the corners from d/dy, which is not exchanged.
+  /// From n to n + 1. d/dz of Y is the Y of n - 1. After the exchange it is d/dx, half the difference of two
+  /// neighbours, which gives all k but the outermost. These follow from the symmetry of the matrix once each Y is
+  /// divided by its norm. The corners follow from d/dy, which is not exchanged.
   void advance() {
     Exchange const old = *this;
     int const n = ++n_;
@@ -37,7 +37,7 @@ class Exchange {
     at(-n, n) = at(n, -n);
   }
 
-  /// The same between Y divided by their norms.
+  /// The same element between Y divided by their norms.
   double normalised(int m, int k) const { return (*this)(m, k) * std::sqrt(square_of_norms(n_, m, k)); }
 
  private:

@@ -1,4 +1,4 @@
-// Tables of an expansion: the numbers that its rotations and translations multiply by. Private to this room.
+// Tables of an expansion: the factors of its rotations and translations. Private to this module.
 #pragma once
 
 #include <cstddef>
@@ -6,25 +6,25 @@
 
 namespace boltzmann {
 
-/// Expansions of higher order would lose to a finer tree.
+/// At higher orders, a finer tree is faster.
 inline constexpr int highest_expansion_order = 30;
 
-/// Where kernels find the tables of an order.
+/// Pointers to the tables of an order, for kernels.
 struct ExpansionView {
   int order = 0;
   double const* swap = nullptr;       ///< blocks of the matrices that exchange x and z (3D), those of n = 1, 2, ...
   double const* factorial = nullptr;  ///< n! up to 2 order + 4
   double const* scale = nullptr;      ///< [n (order + 1) + m]: 1 / sqrt((n - m)! (n + m)!); 2D: [n]: 1 / n!
-  double const* unscale = nullptr;    ///< and its inverse
+  double const* unscale = nullptr;    ///< the inverse of scale
 };
 
 class ExpansionTables {
  public:
-  /// Error unless the dimension is 2 or 3 and the order between 1 and highest_expansion_order.
+  /// Throws Error unless the dimension is 2 or 3 and the order between 1 and highest_expansion_order.
   ExpansionTables(int dimension, int order);
 
   ExpansionView view() const { return {order_, swap_.data(), factorial_.data(), scale_.data(), unscale_.data()}; }
-  /// Doubles of one expansion, up to a whole block of a row.
+  /// The size of one expansion in doubles, padded to a whole block of a row.
   std::size_t size() const { return size_; }
 
  private:

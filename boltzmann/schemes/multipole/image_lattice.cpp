@@ -1,11 +1,12 @@
-// Sums over lattices (Nijboer and de Wette, Physica 23, 309 (1957), from all harmonics to those of far images alone).
+// Sums over lattices (Nijboer and de Wette, Physica 23, 309 (1957)), with all harmonics but far images only.
 //
 // With Q(s, x) the regularised incomplete gamma function, P = 1 - Q, x = alpha^2 R^2 and s = n + D/2 - 1,
 //   sum over far R of T_n(R) = sum far T_n Q(s, x) - sum near, R != 0 of T_n P(s, x) + (1/V) sum k != 0 of t_n(k)
 // where t_n is the Fourier transform of T_n P, which is smooth:
 //   3D  4 pi (-1)^(n/2) / (2n - 1)!! Y_n(k) / k^2 exp(-k^2 / 4 alpha^2),
 //   2D  4 pi (-1)^(n/2) / (n - 1)!  (k/2)^n / k^2 exp(-k^2 / 4 alpha^2),   k = k_x - i k_y.
-// Without k = 0 nothing is polarised from outside ("tin foil"), and a uniform background neutralises the box.
+// The term k = 0 is omitted, which means conducting boundary conditions at infinity. A uniform background neutralises
+// the box.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/pack.hpp>
 #include <boltzmann/schemes/mesh/ewald.hpp>
@@ -27,8 +28,8 @@ using Place = std::array<double, 3>;
 constexpr double euler_gamma = std::numbers::egamma;
 constexpr double reach = 7;  // exp(-reach^2) = 5e-22
 
-/// Calls use(place, how many are like it) for the whole multiples of steps (none along an axis where the step is 0)
-/// within a distance; of those that are mirror images of each other for one.
+/// Calls use(place, multiplicity) for the integer multiples of steps (none along an axis with step 0) within a
+/// distance. Mirror images of each other are visited once.
 template <class Use>
 void each_within(Place const& steps, double distance, Use const& use) {
   std::array<double, 3> most{};
@@ -41,7 +42,7 @@ void each_within(Place const& steps, double distance, Use const& use) {
       }
 }
 
-/// P(s, x) and Q(s, x) for s = first, first + 1, ..., each to its own rounding.
+/// P(s, x) and Q(s, x) for s = first, first + 1, ..., each to rounding.
 class IncompleteGamma {
  public:
   IncompleteGamma(double first, double x, int count) : p_(static_cast<std::size_t>(count)), q_(p_) {
@@ -66,7 +67,7 @@ class IncompleteGamma {
   std::vector<double> p_, q_;
 };
 
-/// Sum over i > first of i^-s, s > 1, by Euler and Maclaurin.
+/// Sum over i > first of i^-s, s > 1, by the Euler-Maclaurin formula.
 double tail_of_zeta(double s, double first) {
   double const last = first + 30;
   double sum = 0;
@@ -111,7 +112,7 @@ class Harmonics {
   int dimension_, order_;
 };
 
-/// The sums over far images, in units of the nearest of them, where all are of the size of 1.
+/// The sums over far images. The unit is the distance of the nearest of them, so that all are of order 1.
 class LatticeSums {
  public:
   LatticeSums(int dimension, ImageLattice const& lattice, double distance, double unit, int order)
@@ -142,7 +143,7 @@ class LatticeSums {
   static constexpr double alpha = 2;
 
   void add(int n, int m, double value) { sums_[static_cast<std::size_t>(n / 2 * (order_ + 1) + m / 2)] += value; }
-  /// The powers of 1/r that T_n has.
+  /// The power of 1/r in T_n.
   int power(int n) const { return dimension_ == 3 ? n + 1 : n; }
   static double sign(int n) { return n / 2 % 2 != 0 ? -1 : 1; }
   /// 1 / (2n - 1)!! = 2^n n! / (2n)!, or 1 / (2^n (n - 1)!), 1/2 for n = 0.
@@ -151,7 +152,7 @@ class LatticeSums {
     return n > 0 ? -n * std::log(2.) - std::lgamma(double(n)) : -std::log(2.);
   }
 
-  /// One periodic axis: zeta functions. Far from a row the potential is -(2/L) ln r, from one in 2D -(pi/L) |y|.
+  /// One periodic axis: zeta functions. Far from a row the potential is -(2/L) ln r, in 2D -(pi/L) |y|.
   void add_row() {
     Place direction{};
     for (int a = 0; a < dimension_; ++a) direction[a] = 1 - open_[a];
@@ -179,7 +180,7 @@ class LatticeSums {
     });
   }
 
-  /// Those that vary along periodic axes, in a box of this volume that has a length along open axes, too.
+  /// The terms that vary along periodic axes, in a box of this volume that has a length along open axes, too.
   void add_waves(double volume) {
     double const furthest = 2 * alpha * (reach + std::sqrt(static_cast<double>(order_)));
     Place waves{};
@@ -198,7 +199,7 @@ class LatticeSums {
     });
   }
 
-  /// All axes: waves, and what is left of the mean and of the box's own cloud.
+  /// All axes: waves, the mean, and the self term of the box's own cloud.
   void add_box() {
     add_waves(volume_);
     if (dimension_ == 3)
@@ -207,8 +208,8 @@ class LatticeSums {
       add(0, 0, -pi / (2 * alpha * alpha * volume_) - 0.5 * (euler_gamma + 2 * std::log(alpha / unit_)));
   }
 
-  /// Two periodic axes of three: along the open one k is dense, as dense as the sum needs to be the integral; what
-  /// varies along it alone is integrated by hand.
+  /// Two periodic axes of three. Along the open one k is sampled finely enough that the sum equals the integral. The
+  /// terms that vary only along it are integrated analytically.
   void add_layers() {
     double const area = volume_;
     add_waves(area * length_of_open_axis());
@@ -242,7 +243,7 @@ std::vector<Place> ImageLattice::within(double distance) const {
   each_within(edges, distance, [&](Place const& place, double) {
     for (int mirrors = 0; mirrors < 8; ++mirrors) {
       Place image = place;
-      bool own = true;  // 0 has no mirror image
+      bool own = true;  // the origin has no mirror image
       for (int a = 0; a < 3; ++a)
         if ((mirrors >> a & 1) != 0) own = own && place[a] > 0, image[a] = -place[a];
       if (own) all.push_back(image);
@@ -311,7 +312,7 @@ void FarImages::add_solid(ExpansionView const& tables, double const* moments, do
     }
 }
 
-/// Of ln(R + x - y): -(1/j) sum of R^-j times (x - y)^j for even j; sum q y^k = -k a_k.
+/// Expands ln(R + x - y): -(1/j) sum of R^-j times (x - y)^j for even j; sum q y^k = -k a_k.
 void FarImages::add_plane(ExpansionView const& tables, double const* moments, double radius, double* local) const {
   int const p = tables.order;
   std::size_t const width = static_cast<std::size_t>(4 * order_) + 1;

@@ -1,4 +1,4 @@
-// Direct sums over all particles, with which errors are measured. Included by multipole_field.cpp alone.
+// Direct sums over all particles, to measure errors. Included by multipole_field.cpp only.
 #pragma once
 
 #include <boltzmann/core/threads.hpp>
@@ -10,7 +10,7 @@
 
 namespace boltzmann {
 
-/// The chosen ones (in ascending order) before all others.
+/// The selected particles (in ascending order) before all others.
 template <class Point>
 std::vector<Point> with_first(std::vector<Point> const& particles, std::vector<std::size_t> const& chosen) {
   std::vector<Point> all;
@@ -25,7 +25,7 @@ std::vector<Point> with_first(std::vector<Point> const& particles, std::vector<s
   return all;
 }
 
-/// At places about the middle of all particles, which are one node.
+/// At positions relative to the middle of all particles, which form one node.
 template <class Kind>
 void MultipoleField<Kind>::add_images_beyond(double distance, Point const* places, std::size_t count,
                                              double* field) const {
@@ -46,7 +46,7 @@ template <class Kind>
 std::vector<double> MultipoleField<Kind>::direct(std::vector<Point> const& particles,
                                                  std::vector<std::size_t> const& chosen, double error,
                                                  int threads) const {
-  auto const sources = with_first(particles, chosen);  // so the kernel knows who is the same
+  auto const sources = with_first(particles, chosen);  // so that the kernel can skip self-interaction
   std::vector<double> field(chosen.size() * Kind::width);
   PairTask task;
   task.target = task.source = sources.empty() ? nullptr : &sources.front().position[0];
@@ -55,7 +55,7 @@ std::vector<double> MultipoleField<Kind>::direct(std::vector<Point> const& parti
   task.target_row_stride = task.source_row_stride = row_stride<typename Kind::Source>;
   task.same = task.overwrite = true;
   task.influence = field.data();
-  // Each rank does a part of the samples.
+  // Each rank computes a part of the samples.
   constexpr std::size_t samples = 16;
   WorkShares::Cuts const cuts = shares_.divided() ? shares_.even(chosen.size(), samples) : WorkShares::Cuts();
   Stretch const own =
@@ -74,7 +74,8 @@ std::vector<double> MultipoleField<Kind>::direct(std::vector<Point> const& parti
   add_pairs(law_);
   if (lattice_.periodic_axes() == 0 || chosen.empty()) return bring(), field;
 
-  // Images: nearby ones like the box itself, all others by expansions of the highest order about the middle of all.
+  // Images: nearby ones as the box itself, all others by expansions of the highest order about the middle of all
+  // particles.
   MultipoleField whole(law_, lattice_);
   whole.choose({highest_expansion_order, particles.size() + 1, 1});
   whole.tree_.build(particles, particles.size() + 1, threads);

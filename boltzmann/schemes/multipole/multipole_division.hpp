@@ -1,4 +1,4 @@
-// How ranks of a team share the work. Included by multipole_field.cpp alone.
+// Work sharing among the ranks of a team. Included by multipole_field.cpp only.
 #pragma once
 
 #include <boltzmann/schemes/multipole/multipole_field.hpp>
@@ -9,7 +9,7 @@
 
 namespace boltzmann {
 
-/// Branches of nodes of which each rank gathers as many, or all: then there are no cuts.
+/// Branches of nodes, divided into equal parts for the ranks. There are no cuts if every rank gathers all.
 template <class Kind>
 WorkShares::Cuts MultipoleField<Kind>::cuts_of_branches() const {
   auto const& branches = tree_.branches();
@@ -31,7 +31,7 @@ Stretch MultipoleField<Kind>::own_branches() const {
   return {cuts[shares_.rank()], cuts[shares_.rank() + 1]};
 }
 
-/// What each rank has gathered of its branches.
+/// Exchanges the moments that each rank has gathered for its branches.
 template <class Kind>
 void MultipoleField<Kind>::bring_moments() {
   auto cuts = cuts_of_branches();
@@ -41,7 +41,7 @@ void MultipoleField<Kind>::bring_moments() {
   shares_.bring(arrays);
 }
 
-/// Each rank calculates for the leaves of a stretch of particles. (One leaf is so small that all do it.)
+/// Each rank calculates the leaves of a range of particles. (If there is only one leaf, all ranks calculate it.)
 template <class Kind>
 void MultipoleField<Kind>::share_out() {
   own_ = {0, tree_.particles().size()};
@@ -52,7 +52,7 @@ void MultipoleField<Kind>::share_out() {
   own_ = {cuts_[shares_.rank()], cuts_[shares_.rank() + 1]};
 }
 
-/// The first leaf that begins with this particle or behind it.
+/// The first leaf that begins at or after this particle.
 template <class Kind>
 std::size_t MultipoleField<Kind>::between_leaves(std::size_t particle) const {
   TreeNode const* node = &tree_.nodes().front();
@@ -65,7 +65,7 @@ std::size_t MultipoleField<Kind>::between_leaves(std::size_t particle) const {
   return particle == node->begin ? particle : node->end;
 }
 
-/// What each rank has found, and what it took.
+/// Exchanges the results of each rank and their cost.
 template <class Kind>
 void MultipoleField<Kind>::bring_fields(WorkShares::Work const& work) {
   struct Took {
@@ -88,7 +88,7 @@ void MultipoleField<Kind>::bring_fields(WorkShares::Work const& work) {
   shares_.took(cuts_, all);
 }
 
-/// Of this rank's stretch, for whoever balances the work.
+/// The cost of this rank's range, for load balancing.
 template <class Kind>
 std::size_t MultipoleField<Kind>::part_of(TreeNode const& node) const {
   return (node.begin - own_.begin) * WorkShares::parts / (own_.end - own_.begin);

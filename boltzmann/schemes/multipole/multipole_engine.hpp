@@ -1,4 +1,4 @@
-// Engines: ensembles as points for expansions, and what the points feel as influences. Private to this room.
+// Engines: convert ensembles to points for expansions, and results at the points to influences. Private to this module.
 #pragma once
 
 #include <boltzmann/boundaries/box.hpp>
@@ -25,78 +25,78 @@
 
 namespace boltzmann {
 
-/// An ensemble that acts, or only feels.
+/// An ensemble that acts, or that only feels the field.
 struct LoadedSources {
   AnyEnsemble* ensemble;
   SourceKind kind;
   bool acts;
 };
 
-/// Of one law in two or three dimensions.
+/// The engine of one law in two or three dimensions.
 class MultipoleEngine {
  public:
   virtual ~MultipoleEngine() = default;
 
-  /// Error unless the law acts between particles of this class.
+  /// Throws Error unless the law acts between particles of this class.
   virtual void check(AnyEnsemble const& ensemble, SourceKind const& kind, bool acts) const = 0;
-  /// All particles of these ensembles. PhysicsFailure if a position is not finite; Error if all axes are periodic and
-  /// strengths don't cancel, without a background.
+  /// Collects all particles of these ensembles. Throws PhysicsFailure if a position is not finite; Error if all axes
+  /// are periodic and strengths don't cancel, without a background.
   virtual void collect(std::vector<LoadedSources> const& loaded, bool background, int threads) = 0;
-  /// Places that feel, behind the particles.
+  /// Adds passive places after the particles.
   virtual void add(double const* places, std::size_t count) = 0;
   virtual std::size_t count() const = 0;
-  /// Of what has been collected.
+  /// The checksum of the collected points.
   virtual std::uint64_t checksum() const = 0;
 
-  /// The ranks of this team, all of which have collected the same, do it together from here on; null: no more.
+  /// From now on the ranks of this team, which have all collected the same points, share the work; null: no longer.
   virtual void divide(Team* team) = 0;
   virtual void choose(MultipoleChoice const& choice) = 0;
   virtual void calculate(bool with_potential, int threads) = 0;
-  /// Whether calculations note how near particles come to what acts on them: see MultipoleField.
+  /// Enables recording of nearness to the acceptance criterion: see MultipoleField.
   virtual void watch(bool yes) = 0;
   virtual std::vector<float> const& nearness() const = 0;
-  /// What these particles feel by direct sums, to this part of it.
+  /// The influences on these particles by direct sums, to this relative accuracy.
   virtual std::vector<double> exact(std::vector<std::size_t> const& particles, double error, int threads) const = 0;
   virtual std::size_t dimension() const = 0;
-  virtual std::size_t width() const = 0;  ///< numbers that a particle feels
-  /// What they feel: a field or a velocity, and possibly more.
+  virtual std::size_t width() const = 0;  ///< numbers per particle
+  /// The results: a field or a velocity, and possibly more.
   virtual std::vector<double> const& field() const = 0;
   virtual std::vector<double> const& potential() const = 0;
   virtual MultipoleChoice const& choice() const = 0;
   virtual MultipoleCost const& cost() const = 0;
-  virtual double work() const = 0;  ///< of the last calculation, in pairs
+  virtual double work() const = 0;  ///< of the last calculation, in units of pairs
   virtual std::size_t bytes() const = 0;
 
   virtual double constant() const = 0;  ///< of the field 1/r^(D-1) of a unit strength
-  /// Where all that is felt may cancel, errors are measured by this field at least.
+  /// Errors are relative to at least this field, in case all influences cancel.
   virtual double least_field() const = 0;
   virtual bool feels(std::size_t i) const = 0;
-  /// What particles feel is compared in so many parts that have units of their own.
+  /// The number of parts of a result that have different units and are compared separately.
   virtual int parts() const { return 1; }
   struct Squares {
     double error, felt;
   };
   virtual Squares compare(int part, std::size_t i, double const* found, double const* exact) const = 0;
 
-  /// Adds what the last calculation has found to the influences (of this rank's share, in a divided run).
+  /// Adds the results of the last calculation to the influences (in a divided run, of this rank's particles).
   virtual void add_influences(std::vector<LoadedSources> const& loaded, int threads) const = 0;
   virtual EnergyAndVirial measure(std::vector<LoadedSources> const& loaded) const = 0;
-  /// Whether particles at one place push each other to infinity.
+  /// True if the influences on coincident particles are infinite.
   virtual bool singular() const = 0;
 };
 
-/// Error unless the law has an effect.
+/// Throws Error unless the law has an effect.
 std::unique_ptr<MultipoleEngine> multipole_engine(LaplaceLaw const& law, Box const& box);
 std::unique_ptr<MultipoleEngine> multipole_engine(VortexLaw const& law, Box const& box);
-/// What is felt is the velocity and its slopes. Error if space has not 3 dimensions.
+/// The results are the velocity and its gradient. Throws Error unless space has 3 dimensions.
 std::unique_ptr<MultipoleEngine> slopes_engine(VortexLaw const& law, Box const& box);
 
-/// Whether an axis has mirror walls at both of its ends.
+/// True if an axis has mirror walls at both of its ends.
 inline bool repeats_between_walls(Box const& box, int axis) {
   return box.boundary(axis) == Boundary::mirror && box.walled(axis, Box::End::low) && box.walled(axis, Box::End::high);
 }
 
-/// Error that names what all strengths sum to, and what helps.
+/// Throws Error with the sum of all strengths and remedies.
 inline void refuse_sum(double total, char const* help) {
   throw Error(
       fmt::format("multipoles: the strengths sum to {:.6g}, and a periodic box has no field unless they cancel; "
@@ -106,7 +106,7 @@ inline void refuse_sum(double total, char const* help) {
 constexpr char const* use_background =
     "add particles of the other sign, or a uniform background: background(true), in scenarios background = true";
 
-/// What all laws have in common.
+/// The common part of all laws.
 template <class Kind>
 class EngineOf : public MultipoleEngine {
  public:
@@ -132,7 +132,7 @@ class EngineOf : public MultipoleEngine {
   }
   std::size_t count() const final { return points_.size(); }
   std::uint64_t checksum() const final {
-    std::uint64_t sum = 0xcbf29ce484222325;  // Fowler, Noll and Vo's, of words
+    std::uint64_t sum = 0xcbf29ce484222325;  // hash of Fowler, Noll and Vo, by words
     auto const add = [&](double number) { sum = (sum ^ std::bit_cast<std::uint64_t>(number)) * 0x100000001b3; };
     for (Point const& p : points_) {
       for (int a = 0; a < D; ++a) add(p.position[a]);
@@ -159,12 +159,12 @@ class EngineOf : public MultipoleEngine {
   double constant() const final { return std::abs(Kind::constant(law_)); }
 
  protected:
-  static constexpr double furthest = 1e140;  // squares and sums of squares are numbers, too
+  static constexpr double furthest = 1e140;  // squares and their sums must not overflow
 
   bool periodic() const { return *std::min_element(edges_.begin(), edges_.end()) > 0; }
   bool any_periodic() const { return *std::max_element(edges_.begin(), edges_.end()) > 0; }
 
-  /// Points of all ensembles: their places, and what `fill` adds, point by point.
+  /// Points of all ensembles: their positions, and data that `fill` adds to each point.
   template <class Fill>
   void collect_points(std::vector<LoadedSources> const& loaded, int threads, Fill const& fill) {
     std::size_t total = 0, at = 0;
@@ -189,7 +189,7 @@ class EngineOf : public MultipoleEngine {
     }
   }
 
-  /// Between neighbours, in the mean.
+  /// The mean distance of neighbours.
   double spacing() const {
     std::array<double, 3> least{}, most{};
     double volume = 1, shortest = 0;
@@ -210,7 +210,7 @@ class EngineOf : public MultipoleEngine {
   std::vector<Point> points_;
 
  private:
-  /// Along a periodic axis everything repeats after its length, between two walls after twice that.
+  /// A periodic axis has its length as period, an axis between two walls twice its length.
   static ImageLattice lattice_of(Box const& box) {
     ImageLattice lattice;
     for (int a = 0; a < D; ++a) {
@@ -219,7 +219,7 @@ class EngineOf : public MultipoleEngine {
     }
     return lattice;
   }
-  /// Into the box, along periodic axes.
+  /// Wraps into the box along periodic axes.
   double inside(double x, int a) const {
     return edges_[a] > 0 ? x - edges_[a] * std::floor((x - low_[a]) / edges_[a]) : x;
   }

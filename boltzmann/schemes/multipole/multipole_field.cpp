@@ -1,4 +1,4 @@
-// Moments up, then visits of all nodes, and what they found in the order of the particles.
+// Gathers moments upwards, visits all nodes, and returns results in the order of the particles.
 #include <boltzmann/core/kernel_dispatch.hpp>
 #include <boltzmann/core/threads.hpp>
 #include <boltzmann/schemes/multipole/multipole_direct.hpp>
@@ -21,16 +21,16 @@ MultipoleKernels kernels_for(int dimension) {
   return for_instruction_set([&](auto set) { return multipole_kernels<decltype(set)::value>().of[dimension - 2]; });
 }
 
-/// Pairs that take as long as one translation of an expansion.
+/// The number of pairs that take as long as one translation of an expansion.
 double pairs_of_a_translation(int dimension, int order) {
   double const p = order;
   return dimension == 3 ? 50 + 4.6 * p * p : 20 + p * p;
 }
 
-/// And as long as the curl of three.
+/// The same for the curl of three.
 double pairs_of_a_curl(int order) { return 10.0 * (order + 2) * (order + 2); }
 
-/// And as long as to evaluate one at one particle.
+/// The same for the evaluation at one particle.
 double pairs_of_an_evaluation(int dimension, int order) {
   double const n = order + 1;
   return dimension == 3 ? 10 + 0.7 * n * n : 5 + n;
@@ -120,7 +120,7 @@ void MultipoleField<Kind>::calculate(std::vector<Point> particles, bool with_pot
   gather(threads);
   choose_images();
   share_out();
-  // The uppermost nodes one by one, until there are enough for all threads.
+  // Visit the uppermost nodes serially, until there are enough for all threads.
   Workspace work;
   std::vector<Visit> open, next;
   std::vector<Other> roots(images_.size());

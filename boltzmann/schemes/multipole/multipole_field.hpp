@@ -1,11 +1,11 @@
-// MultipoleField: the field of point strengths by expansions over a tree, O(N). Private to this room.
-//
-// Moments are gathered from the leaves up. Then each node meets the nodes that could influence it: those far enough
-// give its local expansion something (its own order of sums, W of them at a time), those too near are looked at closer,
-// in their children or its own; a node hands what it has down to its children, and a leaf evaluates it and sums the
-// near particles directly. Every target owns its sums, so that the result has the same bits for any number of threads.
-// In a periodic box it meets the nodes of images nearby, too; all further images act on the expansion of the root.
-// Ranks of a team that all have the particles share the moments of branches, the targets, and samples.
+// MultipoleField: the field of point strengths by expansions over a tree, O(N). Private to this module.
+// Moments are gathered from the leaves up. Then each node meets the nodes that could influence it. Those far enough
+// away contribute to its local expansion (in a fixed order of sums, W of them at a time). For those too near, the
+// children of either node are examined. A node passes its local expansion to its children. A leaf evaluates it and sums
+// the near particles directly. Every target owns its sums, so that the result has the same bits for any number of
+// threads. In a periodic box it also meets the nodes of nearby images; all further images act on the expansion of the
+// root. Ranks of a team, which all have the particles, divide the moments of branches, the targets, and the samples
+// among them.
 #pragma once
 
 #include <boltzmann/particles/share.hpp>
@@ -28,14 +28,15 @@
 
 namespace boltzmann {
 
-/// How far expansions go, and when they are good enough.
+/// The order of expansions, and their acceptance criterion.
 struct MultipoleChoice {
   int order = 8;          ///< of the expansions
-  std::size_t leaf = 64;  ///< most particles of a leaf
-  double error = 1e-6;    ///< of the field that one node makes in another, over the constant of the law: the criterion
+  std::size_t leaf = 64;  ///< greatest number of particles in a leaf
+  double error = 1e-6;    ///< the criterion: allowed error of the field of one node in another, over the constant of
+                          ///< the law
 };
 
-/// What a calculation took.
+/// The cost of a calculation.
 struct MultipoleCost {
   std::size_t nodes = 0, translations = 0, pairs = 0;
 };
@@ -47,50 +48,51 @@ class MultipoleField {
   using Law = typename Kind::Law;
   using Point = Row<typename Kind::Source>;
 
-  /// `lattice`: of periodic axes; particles stand inside of them.
+  /// `lattice`: of periodic axes; particles must be inside them.
   explicit MultipoleField(Law const& law, ImageLattice const& lattice = {});
 
   void choose(MultipoleChoice const& choice);
   MultipoleChoice const& choice() const { return choice_; }
-  /// From here on the ranks of this team calculate together, all with the same particles, and have the bits of one that
-  /// calculates alone; null: no more.
+  /// From now on the ranks of this team share the calculation. All have the same particles, and results have the same
+  /// bits as on one rank; null: no longer.
   void divide(Team* team) { shares_.divide(team); }
 
-  /// What each of these particles (finite positions) feels, charges as a field on unit strength, and their potential if
-  /// that is wanted.
+  /// Calculates the influence on each of these particles (finite positions), for charges the field on unit strength,
+  /// and on request their potential.
   void calculate(std::vector<Point> particles, bool with_potential, int threads);
-  /// Kind::width numbers for each particle, in the order in which they were given.
+  /// Kind::width numbers for each particle, in the input order.
   std::vector<double> const& field() const { return field_; }
   std::vector<double> const& potential() const { return potential_; }
-  /// Whether calculations note, of each particle, how near it came to what acts on it by expansions: the square of the
-  /// distance that is allowed over the distance, and of its place in what is expanded over that one's radius; 1: as near
-  /// as is allowed. Errors go with a high power of that.
+  /// If `yes`, calculations record the nearness of each particle to the acceptance criterion. It is the square of the
+  /// allowed distance over the distance, or of the particle's position in an expansion over its radius; 1 is the limit.
+  /// Errors grow with a high power of it.
   void watch(bool yes) { watched_ = yes; }
   std::vector<float> const& nearness() const { return nearness_; }
-  /// What some of these particles (numbers in ascending order) feel, by direct sums over all: Kind::width numbers for
-  /// each. In a periodic box images that are far away act through expansions, to an error of this part.
+  /// The influence on some of these particles (numbers in ascending order), by direct sums over all: Kind::width
+  /// numbers for each. In a periodic box far images act through expansions, to this relative error.
   std::vector<double> direct(std::vector<Point> const& particles, std::vector<std::size_t> const& chosen, double error,
                              int threads) const;
   MultipoleCost const& cost() const { return cost_; }
-  /// The same in one number: pairs that take about as long.
+  /// The same in one number: the equivalent number of pairs.
   double work() const { return work_of(cost_); }
   std::size_t bytes() const;
 
  private:
-  /// What is felt of three densities is the curl of their fields.
+  /// With three densities, the result is the curl of their fields.
   static constexpr bool has_curl = Kind::densities == 3;
 
   /// A node in the box or in an image.
   struct Other {
     std::uint32_t node = 0, image = 0;
   };
-  /// A node that is to be visited, what its parent has handed to it, and whom it has yet to meet.
+  /// A node to be visited, its local expansion from the parent, and the nodes that it has yet to meet.
   struct Visit {
     std::uint32_t node = 0;
     std::vector<double> local;
     std::shared_ptr<std::vector<Other> const> others;
     std::array<SofteningCorrection<D>, Kind::densities> softening = {};  ///< of the local expansions
-    double nearness = 0;                                                 ///< of what is in them, at its edge
+    double nearness = 0;                                                 ///< nearness at its edge of the included
+                                                                         ///< sources
   };
   using PlacedAmount = Row<PointSource<D>>;
   using SofteningMoments = typename SofteningCorrection<D>::Moments;
@@ -113,7 +115,7 @@ class MultipoleField {
   void share_out();
   std::size_t between_leaves(std::size_t particle) const;
   void bring_fields(WorkShares::Work const& work);
-  /// Whether some of its leaves are this rank's, and whether its first is.
+  /// True if some of its leaves belong to this rank, and if its first leaf does.
   bool has_own(TreeNode const& node) const { return node.begin < own_.end && node.end > own_.begin; }
   bool begins_own(TreeNode const& node) const { return node.begin < own_.end && node.begin >= own_.begin; }
   std::size_t index_of(TreeNode const& node) const { return static_cast<std::size_t>(&node - tree_.nodes().data()); }
@@ -124,7 +126,7 @@ class MultipoleField {
   double* moments(std::size_t node) { return moments_[node * numbers() / 4].numbers; }
   void gather(int threads);
   void gather(std::size_t node);
-  /// Whether expansions differ from those of points: then their corrections are wanted.
+  /// True if the field differs from that of points: then softening corrections are needed.
   bool softened() const { return softest_ > 0 && Kind::softening(law_) != Softening::ends; }
   void visit(Visit visit, Workspace& work, std::vector<Visit>& next);
   void visit_below(Visit visit, Workspace& work);
@@ -162,22 +164,22 @@ class MultipoleField {
   MultipoleChoice choice_;
   MultipoleKernels kernels_;
   ExpansionTables tables_;
-  std::optional<ExpansionTables> tables_of_curl_;  // of moments; none: its order would be too high
+  std::optional<ExpansionTables> tables_of_curl_;  // for moments; none: the order would be too high
   Tree<typename Kind::Source> tree_;
   std::vector<Block> moments_;
   AcceptanceCriterion<Kind> acceptance_;
-  double softest_ = 0;                                    // the square of the largest core of all
-  std::vector<std::array<double, 3>> images_{{0, 0, 0}};  // that are met; the first is the box itself
-  std::vector<char> beside_{true};                        // of each: it is softened
+  double softest_ = 0;                                    // square of the largest core
+  std::vector<std::array<double, 3>> images_{{0, 0, 0}};  // that are met individually; the first is the box itself
+  std::vector<char> beside_{true};                        // per image: true if it is softened
   std::optional<FarImages> far_images_;
   UniformBackground<D> backgrounds_[Kind::densities];
   std::vector<double> sorted_field_, sorted_potential_, field_, potential_;
   std::vector<float> sorted_nearness_, nearness_;
   MultipoleCost cost_;
   WorkShares shares_;
-  WorkShares::Cuts cuts_;  // of the particles in the order of leaves, if ranks share them: between leaves
-  Stretch own_{0, 0};      // of these: those for which this rank calculates
-  double pairs_of_a_translation_ = 0, pairs_of_an_evaluation_ = 0, pairs_of_a_curl_ = 0;  // what takes as long
+  WorkShares::Cuts cuts_;  // of the particles in the order of leaves, between leaves, if ranks share the work
+  Stretch own_{0, 0};      // the part of this rank
+  double pairs_of_a_translation_ = 0, pairs_of_an_evaluation_ = 0, pairs_of_a_curl_ = 0;  // costs in pairs
   bool with_potential_ = false, watched_ = false;
 };
 

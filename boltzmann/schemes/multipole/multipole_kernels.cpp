@@ -1,4 +1,4 @@
-// Expansions, W at a time: moments of particles and nodes, what they make elsewhere, and the field there.
+// Expansions, W at a time: moments of particles and nodes, their translations, and the field.
 #include <boltzmann/core/kernel_unit.hpp>
 #include <boltzmann/schemes/multipole/multipole_kinds.hpp>
 #include <boltzmann/schemes/multipole/plane_series.hpp>
@@ -12,7 +12,7 @@
 namespace boltzmann {
 namespace multipole {
 
-/// A particle of unit strength, which feels the field.
+/// A particle of unit strength, as a probe of the field.
 template <int D, class Real = double>
 struct Probe : PointSource<D, Real> {
   Real strength() const { return 1.0; }
@@ -112,7 +112,7 @@ class Kernels {
           if (m > 0) local[imaginary_at(n, m)] += f * sum(sums[imaginary_at(n, m)]);
         }
     } else {
-      double strength = 0;  // places are in units of the radius, whose logarithm is missing
+      double strength = 0;  // positions are in units of the radius, so its logarithm is missing
       for (std::size_t i = 0; i < particles.count; ++i)
         strength += detail::particle_at<PointSource<D>>(particles.rows + i * row_stride<PointSource<D>>).amount;
       local[0] += sum(sums[0]) + strength * std::log(particles.radius);
@@ -124,7 +124,7 @@ class Kernels {
  private:
   using Point = rebind_t<PointSource<D>, Real>;
 
-  /// W particles, their places in units of the radius about the centre.
+  /// W particles, with positions relative to the centre in units of the radius.
   static Point load(NodeParticles const& particles, std::size_t first) {
     auto p = detail::load_neighbouring_rows<PointSource<D>, W>(particles.rows, row_stride<PointSource<D>>, first,
                                                                particles.count);
@@ -137,7 +137,7 @@ class Kernels {
                   p.amount, Real(0.0));
   }
 
-  /// Shifts and radii of up to W; those that are missing are like the first.
+  /// Shifts and radii of up to W expansions; missing lanes repeat the first.
   static void lanes(Shifted const* all, std::size_t count, Vector<D, Real>& shift, Real& radius) {
     double columns[D + 1][W];
     for (int lane = 0; lane < W; ++lane) {
@@ -149,7 +149,7 @@ class Kernels {
     radius = std::bit_cast<Real>(columns[D]);
   }
 
-  /// Adds up what W at a time become elsewhere.
+  /// Adds the translations of W expansions at a time.
   template <Translation kind>
   static void carry(ExpansionView const& tables, Shifted const* all, std::size_t count, double to_radius, double* out) {
     int const numbers = static_cast<int>(expansion_numbers(D, tables.order));
@@ -175,9 +175,9 @@ class Kernels {
     for (int i = 0; i < numbers; ++i) out[i] += sum(total[i]);
   }
 
-  // Whose field is evaluated: a local expansion's inside of its node, or moments' outside.
+  // The field to evaluate: a local expansion inside its node, or moments outside.
   struct Inside {
-    static constexpr int further = -1;  // the order of slopes is that of the expansion and this
+    static constexpr int further = -1;  // order of the slopes relative to the expansion
     static void each(int order, Vector<D, Real> const& x, auto const& use) { Series::each(order, x, 1.0, use); }
   };
   struct Outside {
@@ -230,7 +230,7 @@ class Kernels {
     }
   }
 
-  /// The coefficient (n, m) without the factor it is stored with, also of negative m: F_n^-m = (-1)^m conj F_n^m.
+  /// The coefficient (n, m) without the stored factor, also for negative m: F_n^-m = (-1)^m conj F_n^m.
   static Complex<double> coefficient(ExpansionView const& tables, double const* numbers, double const* factors, int n,
                                      int m) {
     if (n < 0 || n > tables.order || m > n || -m > n) return {0, 0};

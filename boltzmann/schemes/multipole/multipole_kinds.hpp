@@ -1,4 +1,5 @@
-// What acts by expansions: the strengths of charges and masses, and the vorticity of vortices. Private to this room.
+// The kinds of sources of expansions: strengths of charges and masses, and vorticity of vortices. Private to this
+// module.
 #pragma once
 
 #include <boltzmann/laws/laplace.hpp>
@@ -12,16 +13,16 @@
 
 namespace boltzmann {
 
-/// Strengths make a potential; what is felt is its field, on unit strength.
+/// Strengths create a potential; the result is its field, on unit strength.
 template <int D>
 struct Charges {
   static constexpr int dimension = D;
   using Source = PointSource<D>;
   using Law = LaplaceLaw;
-  static constexpr int densities = 1;  ///< expansions beside each other
-  static constexpr int width = D;      ///< numbers of what a particle feels
+  static constexpr int densities = 1;  ///< number of expansions in parallel
+  static constexpr int width = D;      ///< numbers per particle in the result
   static constexpr bool potential = true;
-  static constexpr bool own_cores = false;  ///< each source is softened as it says, not all as the law does
+  static constexpr bool own_cores = false;  ///< true if each source has its own softening length
 
   static double constant(Law const& law) { return law.constant / (D == 3 ? 4 * pi : 2 * pi); }
   static double amount(Source const& p, int /*density*/) { return p.amount; }
@@ -29,14 +30,14 @@ struct Charges {
   static Law without_softening(Law const& law, std::vector<Row<Source>>&) { return {law.constant}; }
   static Softening softening(Law const&) { return Softening::plummer; }
   static double end_of_core(Law const&) { return 0; }
-  /// Calls f(kernel, law) with what it is compiled for.
+  /// Calls f(kernel, law) with the specialised kernel.
   template <class F>
   static void near(MultipoleKernels const& kernels, Law const& law, bool with_potential, F const& f) {
     f(with_potential ? kernels.near_with_potential : kernels.near, &law);
   }
 };
 
-/// Each component of vorticity makes a field E_k as charges do; the velocity is - sum_k E_k x e_k. What is felt is a
+/// Each component of vorticity creates a field E_k as charges do; the velocity is - sum_k E_k x e_k. The result is a
 /// velocity, in 3D also the stretching of vorticity (Inviscid).
 template <int D>
 struct Vortices {
@@ -59,19 +60,19 @@ struct Vortices {
     if (law.core == VortexCore::algebraic) return Softening::algebraic;
     return D == 3 && law.core == VortexCore::plain ? Softening::plummer : Softening::ends;
   }
-  /// In cores: where a Gaussian is below 1e-11.
+  /// In units of cores: the radius beyond which a Gaussian is below 1e-11.
   static double end_of_core(Law const& law) { return law.core == VortexCore::gaussian ? 7 : 1; }
   template <class F>
   static void near(MultipoleKernels const& kernels, Law const& law, bool /*with_potential*/, F const& f) {
     law.visit([&](auto const& own) { f(kernels.near_vortices[static_cast<int>(law.core)], &own); });
   }
 
-  /// What a velocity with this slope of its component a does to the vorticity of p.
+  /// Adds the effect of this gradient of velocity component a on the vorticity of p.
   static void add_slope(Law const& law, Source const& p, int a, Vector<3> const& slope, double* rate) {
     rate[a] += (1 - law.transposed) * dot(p.vorticity, slope);
     for (int b = 0; b < 3; ++b) rate[b] += law.transposed * p.vorticity[a] * slope[b];
   }
-  /// The velocity of these fields.
+  /// The velocity from these fields.
   static Vector<D> velocity(Vector<D> const (&field)[densities]) {
     if constexpr (D == 2)
       return {-field[0][1], field[0][0]};
@@ -80,7 +81,7 @@ struct Vortices {
   }
 };
 
-/// The same in 3D for whoever asks for the slopes of the velocity themselves: SlopedFlow.
+/// The same in 3D with the velocity gradient as the result: SlopedFlow.
 struct VortexSlopes : Vortices<3> {
   static constexpr int width = 12;
 

@@ -1,4 +1,5 @@
-// What the particles of a leaf feel: of expansions, of particles nearby, of cores. Included by multipole_field.cpp alone.
+// Influences on the particles of a leaf: from expansions, nearby particles and cores. Included by multipole_field.cpp
+// only.
 #pragma once
 
 #include <boltzmann/schemes/multipole/curl.hpp>
@@ -10,7 +11,7 @@
 
 namespace boltzmann {
 
-/// (Vorticity in 3D is neutral itself, so that this flow is uniform.)
+/// (Vorticity in 3D is neutral by itself, so that this flow is uniform.)
 template <class Kind>
 void MultipoleField<Kind>::add_backgrounds(Cluster const& target, double* field, double* potential) const {
   if (!backgrounds_[0].exists()) return;
@@ -39,7 +40,7 @@ typename MultipoleField<Kind>::SofteningMoments MultipoleField<Kind>::softened_s
   }
 }
 
-/// To the local expansions of a node.
+/// Adds softening corrections to the local expansions of a node.
 template <class Kind>
 void MultipoleField<Kind>::add_softening(Visit& visit, Workspace const& work) const {
   if (!softened()) return;
@@ -65,7 +66,8 @@ void MultipoleField<Kind>::add_softening(Visit& visit, Workspace const& work) co
   }
 }
 
-/// To the particles of a leaf: of its local expansions, and of moments that are evaluated at them.
+/// Adds softening corrections at the particles of a leaf: those of its local expansions, and of moments evaluated
+/// there.
 template <class Kind>
 void MultipoleField<Kind>::add_softening(Cluster const& target, Visit const& visit, Workspace& work, double* field,
                                          double* potential) const {
@@ -93,7 +95,7 @@ void MultipoleField<Kind>::add_softening(Cluster const& target, Visit const& vis
     }
     add_fields(fields, field + i * Kind::width);
     if constexpr (Kind::width > D) {
-      Vector<D> slopes[D];  // of the components of the velocity
+      Vector<D> slopes[D];  // for the components of the velocity
       for (int b = 0; b < D; ++b) {
         Vector<D> axis{}, along[Kind::densities];
         axis[b] = 1;
@@ -106,7 +108,7 @@ void MultipoleField<Kind>::add_softening(Cluster const& target, Visit const& vis
   }
 }
 
-/// The influence of fields of the densities.
+/// The influence of the fields of all densities.
 template <class Kind>
 void MultipoleField<Kind>::add_fields(Vector<D> const (&fields)[Kind::densities], double* influence) {
   if constexpr (Kind::potential)
@@ -115,7 +117,7 @@ void MultipoleField<Kind>::add_fields(Vector<D> const (&fields)[Kind::densities]
     multipole::add_to<D>(influence, Kind::velocity(fields));
 }
 
-/// What local expansions about the centre of a target make at its particles.
+/// Evaluates local expansions about the centre of a target at its particles.
 template <class Kind>
 void MultipoleField<Kind>::add_local(Cluster const& target, double const* local, double* field, double* potential,
                                      Scratch& scratch) const {
@@ -135,8 +137,8 @@ void MultipoleField<Kind>::add_local(Cluster const& target, double const* local,
   }
 }
 
-/// Of the expansions in scratch. Components of the velocity are harmonic, too: each is evaluated as a potential, with its
-/// slope.
+/// Evaluates the expansions in scratch. Components of the velocity are also harmonic: each is evaluated as a potential,
+/// with its gradient.
 template <class Kind>
 void MultipoleField<Kind>::add_curl(Cluster const& target, NodeParticles const& places, ExpansionTables const& tables,
                                     decltype(MultipoleKernels::evaluate) evaluate, double* field,
@@ -157,7 +159,7 @@ void MultipoleField<Kind>::add_curl(Cluster const& target, NodeParticles const& 
     }
 }
 
-/// What the moments of a node make at particles outside of it.
+/// Evaluates the moments of a node at particles outside of it.
 template <class Kind>
 void MultipoleField<Kind>::add_outside(Cluster const& target, Other const& source, double* field, double* potential,
                                        Scratch& scratch) const {
@@ -192,7 +194,7 @@ template <class Kind>
 void MultipoleField<Kind>::finish_leaf(TreeNode const& leaf, Visit const& visit, Workspace& work) {
   auto const& particles = tree_.particles();
   std::size_t const before = work.pairs;
-  // The leaf's own stand first, so that the kernel knows who is the same.
+  // The leaf's own particles come first, so that the kernel can skip self-interaction.
   work.sources.assign(particles.begin() + leaf.begin, particles.begin() + leaf.end);
   work.bare.clear();
   for (Other const& other : work.near) {
@@ -223,7 +225,7 @@ void MultipoleField<Kind>::finish_leaf(TreeNode const& leaf, Visit const& visit,
     task.same = task.overwrite = false;
     add_near(Kind::without_softening(law_, work.bare), task, work);
   }
-  for (std::size_t i = 0; potential && i < leaf.size(); ++i) potential[i] *= 2;  // kernels give half
+  for (std::size_t i = 0; potential && i < leaf.size(); ++i) potential[i] *= 2;  // kernels return half of it
   Cluster const own = particles_of(leaf);
   add_local(own, visit.local.data(), task.influence, potential, work.scratch);
   add_backgrounds(own, task.influence, potential);
@@ -234,7 +236,7 @@ void MultipoleField<Kind>::finish_leaf(TreeNode const& leaf, Visit const& visit,
   work.work[part_of(leaf)] += work.pairs - before + static_cast<std::uint64_t>(evaluations);
 }
 
-/// Of the edge of a target to what acts on its local expansion.
+/// Nearness at the edge of a target to the sources of its local expansion.
 template <class Kind>
 double MultipoleField<Kind>::nearest_of(std::uint32_t number, Workspace const& work) const {
   TreeNode const& target = tree_.nodes()[number];
@@ -255,7 +257,7 @@ double MultipoleField<Kind>::nearest_of(std::uint32_t number, Workspace const& w
   return nearest;
 }
 
-/// Of the particles of a leaf.
+/// Nearness of the particles of a leaf.
 template <class Kind>
 void MultipoleField<Kind>::note_nearness(TreeNode const& leaf, Visit const& visit, Workspace const& work) {
   for (std::uint32_t i = leaf.begin; i < leaf.end; ++i) {

@@ -1,4 +1,4 @@
-// Whom a node meets, and what is done with them; expansions down the tree. Included by multipole_field.cpp alone.
+// The meetings of nodes and their handling; expansions down the tree. Included by multipole_field.cpp only.
 #pragma once
 
 #include <boltzmann/core/number.hpp>
@@ -11,7 +11,7 @@
 
 namespace boltzmann {
 
-/// How far a node has to be from a target's centre to act on all of it by an expansion.
+/// The distance from a target's centre at which a node may act on all of it by an expansion.
 template <class Kind>
 double MultipoleField<Kind>::needed(TreeNode const& target, double reach, Other const& other) const {
   return acceptance_.between(target, index_of(target), reach, tree_.nodes()[other.node], other.node,
@@ -34,7 +34,7 @@ std::array<double, 3> MultipoleField<Kind>::centre(Other const& other) const {
   return place;
 }
 
-/// Where a place in the box stands for those in an image.
+/// The position, as seen from an image, of a place in the box.
 template <class Kind>
 std::array<double, 3> MultipoleField<Kind>::seen_from(Other const& other, std::array<double, 3> const& place) const {
   auto seen = place;
@@ -42,8 +42,8 @@ std::array<double, 3> MultipoleField<Kind>::seen_from(Other const& other, std::a
   return seen;
 }
 
-/// Those images are met that are too near for the expansions of the whole box (to be on the safe side, since all
-/// further ones do the same to it, by a tenth of the error), and those beside it, which are softened.
+/// Selects images that must be met individually: those too near for the expansions of the whole box, and those beside
+/// it, which are softened. The criterion is ten times stricter, because the errors of all further images add up.
 template <class Kind>
 void MultipoleField<Kind>::choose_images() {
   if (lattice_.periodic_axes() == 0) return;
@@ -59,7 +59,7 @@ void MultipoleField<Kind>::choose_images() {
   find_backgrounds();
 }
 
-/// Whether all particles of a node are further than this from a place.
+/// True if all particles of a node are further than this from a place.
 template <class Kind>
 bool MultipoleField<Kind>::clear_of(TreeNode const& node, std::array<double, 3> const& place, double distance) const {
   auto const& particles = tree_.particles();
@@ -71,7 +71,7 @@ bool MultipoleField<Kind>::clear_of(TreeNode const& node, std::array<double, 3> 
   return true;
 }
 
-/// Whether to evaluate the moments of a source at each particle of a target takes less than all pairs.
+/// True if evaluating the moments of a source at each particle of a target costs less than all pairs.
 template <class Kind>
 bool MultipoleField<Kind>::evaluates_moments(TreeNode const& target, TreeNode const& source) const {
   if (has_curl && !tables_of_curl_) return false;
@@ -79,7 +79,7 @@ bool MultipoleField<Kind>::evaluates_moments(TreeNode const& target, TreeNode co
   return static_cast<double>(target.size()) * saved > pairs_of_a_curl_;
 }
 
-/// Sorts those that a node has to meet by what is done with them.
+/// Sorts the nodes that a node meets by the kind of interaction.
 template <class Kind>
 void MultipoleField<Kind>::meet(std::uint32_t number, std::vector<Other> const& others, Workspace& work) const {
   TreeNode const& target = tree_.nodes()[number];
@@ -92,7 +92,7 @@ void MultipoleField<Kind>::meet(std::uint32_t number, std::vector<Other> const& 
     TreeNode const& source = tree_.nodes()[other.node];
     bool const leaves = target.leaf() && source.leaf();
     bool const softened = beside_[other.image];
-    // Of a wide leaf, which its particles hardly fill, the expansion would be poor, but those of the others are not.
+    // For a wide leaf with few particles, its own expansion would be poor, but those of the other nodes are good.
     if (target.leaf() && target.radius > 1.5 * source.radius && evaluates_moments(target, source) &&
         clear_of(target, centre(other), acceptance_.outside(source, other.node, softened)))
       work.outside.push_back(other);

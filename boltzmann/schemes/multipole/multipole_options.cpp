@@ -1,4 +1,4 @@
-// The members of multipole schemes with their keys.
+// The keys of multipole schemes.
 #include <boltzmann/schemes/field_options.hpp>
 #include <boltzmann/schemes/multipole/multipole_options.hpp>
 

@@ -1,4 +1,4 @@
-// Multipole options: what scenarios say of multipoles, with their keys.
+// Multipole options: the keys in scenarios for multipoles.
 #pragma once
 
 #include <boltzmann/core/options.hpp>
@@ -9,7 +9,7 @@
 
 namespace boltzmann {
 
-/// The law and whom it acts on are read by the reader of the scenario.
+/// The reader of the scenario processes the law and the ensembles on which it acts.
 struct MultipoleOptions {
   double tolerance = 1e-4;
   bool background = false;

@@ -1,4 +1,4 @@
-// From ensembles to points and back, and how an accuracy is kept.
+// Conversion between ensembles and points, and control of the accuracy.
 #include <boltzmann/core/clock.hpp>
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/random.hpp>
@@ -17,19 +17,20 @@ namespace boltzmann {
 namespace {
 
 constexpr std::size_t checked_every = 64;
-/// Below, to sum all pairs is as fast.
+/// For fewer particles, summing all pairs is as fast.
 constexpr std::size_t summed_directly = 1500;
 
 double digits_of(double tolerance) { return -std::log10(tolerance); }
 
-/// Whether along some axis everything is there again and again.
+/// True if the system repeats along some axis.
 bool repeats(Box const& box) {
   for (int a = 0; a < box.dimension(); ++a)
     if (box.periodic(a) || repeats_between_walls(box, a)) return true;
   return false;
 }
 
-/// The order at which expansions and pairs take about as long for this tolerance. In a periodic box images take a share.
+/// The order at which expansions and pairs take about equally long for this tolerance. In a periodic box images take
+/// part of the time.
 int order_for(double tolerance, Box const& box) {
   double const digits = digits_of(tolerance);
   double const order = box.dimension() == 2 ? 3 + 2 * digits : repeats(box) ? 1 + 1.6 * digits : 2.5 + 2 * digits;
@@ -41,7 +42,7 @@ void check_tolerance(double tolerance) {
     throw Error(fmt::format("multipoles: a tolerance of {}; it must be between 1e-10 and 0.1", tolerance));
 }
 
-/// Truth is so much better than what is compared with it.
+/// Relative accuracy of the reference sums.
 constexpr double better = 1e-3;
 
 void check_box(Box const& box, bool of_vortices) {
@@ -109,7 +110,7 @@ void MultipoleScheme::load(AnyEnsemble& ensemble, SourceKind const& kind, bool a
   loaded_.push_back({&ensemble, kind, acts});
 }
 
-/// While errors are asked for.
+/// Records nearness while the object exists.
 class MultipoleScheme::Watched {
  public:
   explicit Watched(MultipoleEngine& engine) : engine_(engine) { engine.watch(true); }
@@ -124,8 +125,8 @@ class MultipoleScheme::Watched {
 ErrorSamples MultipoleScheme::choose_samples() const {
   std::size_t particles = 0;  // and no places
   for (auto const& one : loaded_) particles += one.ensemble->size();
-  // The higher the order, the fewer particles make most of the error: at 1e-10 fifty of 100,000 make half of it. (Images
-  // make samples dear.)
+  // At higher orders, fewer particles contribute most of the error: at 1e-10 fifty of 100,000 contribute half of it.
+  // (Images make samples expensive.)
   double const order = order_ > 0 ? order_ : order_for(tolerance_, box());
   double const more = std::clamp(order * order / 64, 1.0, box().any_periodic() ? 2.0 : 12.0);
   return {*engine_, particles, static_cast<std::size_t>(200 * more), better * tolerance_, threads()};
@@ -136,23 +137,23 @@ std::size_t MultipoleScheme::leaf() const {
   return box().dimension() == 2 || digits < 4.1 ? 48 : digits < 7.2 ? 90 : 100;
 }
 
-/// Calculates with an order and a criterion for which the error of the samples is between an eighth of the tolerance and
-/// two fifths of it, where there is one: what is promised of all particles then holds for all. The first time it looks
-/// for the order that takes least work.
+/// Calculates with an order and a criterion for which the error of the samples is between an eighth and two fifths of
+/// the tolerance, if there is one. This margin guarantees the tolerance for all particles. The first call searches for
+/// the order with the least work.
 void MultipoleScheme::tune(bool with_potential) {
   Watched const watched(*engine_);
   ErrorSamples samples = choose_samples();
   double const field = samples.typical_field();
   if (order_ == 0) order_ = order_for(tolerance_, box());
-  if (!std::isfinite(field) || field == 0) {  // two at one place, or nobody who acts: whoever looks will say so
+  if (!std::isfinite(field) || field == 0) {  // coincident particles, or no sources: the caller reports it
     engine_->choose({order_, leaf(), 1});
     engine_->calculate(with_potential, threads());
     return;
   }
   bool const first = criterion_ == 0;
   Fit best = fit(order_, first ? 4 * tolerance_ * field : criterion_, samples, with_potential);
-  // Higher orders leave less to pairs, and take longer: what takes most is tried to be lessened. (Not in a periodic box:
-  // each order has lattice sums of its own.)
+  // Higher orders leave less work to pairs, and take longer. So reduce the larger part. (Not in a periodic box, where
+  // each order needs its own lattice sums.)
   int const step = best.of_pairs > 0.5 ? 2 : -2;
   while (first && !repeats(box()) && !everything_is_summed() && best.order + step >= 2 &&
          best.order + step <= highest_expansion_order) {
@@ -166,12 +167,12 @@ void MultipoleScheme::tune(bool with_potential) {
   order_ = best.order, criterion_ = best.criterion;
 }
 
-/// Calculates with expansions of this order, and a criterion that makes the error what it should be.
+/// Calculates with expansions of this order, and a criterion that gives the desired error.
 MultipoleScheme::Fit MultipoleScheme::fit(int order, double criterion, ErrorSamples& samples, bool with_potential) {
-  double const shortest = 1.5;  // of two criteria whose errors are worth a calculation between them
+  double const shortest = 1.5;  // least ratio of two criteria that justifies another calculation between them
   int in_vain = 0, between = 0;
   double last_measured = __builtin_inf(), last_work = 0;
-  double good = 0, bad = __builtin_inf();  // criteria that were enough, and that were not
+  double good = 0, bad = __builtin_inf();  // sufficient and insufficient criteria
   for (int attempt = 0;; ++attempt) {
     engine_->choose({order, leaf(), criterion});
     engine_->calculate(with_potential, threads());
@@ -179,11 +180,12 @@ MultipoleScheme::Fit MultipoleScheme::fit(int order, double criterion, ErrorSamp
     double const work = engine_->work();
     bool const enough = measured_ <= 0.4 * tolerance_, too_much = measured_ < tolerance_ / 8;
     (enough ? good : bad) = criterion;
-    // In a crystal errors jump, and nothing is between; few particles in a periodic box leave nothing to expansions.
+    // In a crystal, errors jump and no criterion is in between. With few particles in a periodic box, no pairs of nodes
+    // use expansions.
     bool const settled = between >= 3 || bad < shortest * good || attempt >= 12 || work == last_work;
     if (everything_is_summed() || (enough && (!too_much || settled)))
       return {order, criterion, work, static_cast<double>(engine_->cost().pairs) / work};
-    // More of expansions and pairs, and no better?
+    // More expansions and pairs without a better error.
     in_vain = good == 0 && measured_ > 0.7 * last_measured ? in_vain + 1 : 0;
     last_measured = measured_, last_work = work;
     if (in_vain == 4)
@@ -230,7 +232,7 @@ std::vector<VortexSource> MultipoleScheme::vortices() const {
   return all;
 }
 
-/// While all ranks of a divided run calculate.
+/// Shares the work of all ranks in a divided run, while the object exists.
 class MultipoleScheme::Together {
  public:
   explicit Together(MultipoleScheme& scheme) : engine_(*scheme.engine_) {
@@ -254,7 +256,7 @@ void MultipoleScheme::add_influences(double /*time*/) {
   engine_->add_influences(loaded_, threads());
 }
 
-/// Looking changes nothing that the next calculation depends on.
+/// A calculation for observers, which does not affect later calculations.
 class MultipoleScheme::Look {
  public:
   explicit Look(MultipoleScheme& scheme)
@@ -391,7 +393,7 @@ MultipoleAccuracy MultipoleScheme::accuracy() {
   return accuracy;
 }
 
-/// As it stands after a calculation.
+/// The state after a calculation.
 MultipoleAccuracy MultipoleScheme::chosen_and_taken() const {
   auto const& cost = engine_->cost();
   return {measured_, everything_is_summed() ? 0 : engine_->choice().order, cost.nodes, cost.translations, cost.pairs};
@@ -416,7 +418,8 @@ MultipoleScheme::Trial MultipoleScheme::try_tolerance(double tolerance) {
   }
 }
 
-// No step has to resolve a softening: among many particles one that passes near gives far less than all others do.
+// No step has to resolve a softening: among many particles, a close encounter contributes much less than all others
+// together.
 double MultipoleScheme::length_scale(AnyEnsemble const&) const { return __builtin_inf(); }
 
 std::string MultipoleScheme::explain(AnyEnsemble const& ensemble, std::size_t i) const {
@@ -442,8 +445,8 @@ std::string MultipoleScheme::report() const {
       static_cast<double>(last_->pairs));
 }
 
-/// If particles are those of the last influences, a run that goes on from here calculates these once more, unless the
-/// influences are part of the checkpoint.
+/// If the particles are those of the last influences, a resumed run repeats their calculation, unless the checkpoint
+/// contains the influences.
 std::vector<double> MultipoleScheme::state() const {
   double again = 0;
   if (counted_ != 0) {

@@ -1,6 +1,5 @@
 // MultipoleScheme: gravity, electrostatics and vortex flow of any distribution of particles in 2D and 3D, in open space
-// or with periodic axes, by multipole expansions over a tree: O(N), with an accuracy that is kept.
-//
+// or with periodic axes, by multipole expansions over a tree: O(N), with a controlled accuracy.
 //   MultipoleScheme scheme(Box({-9, -9, -9}, {9, 9, 9}), gravity(1, 0.01), 1e-4);
 //   scheme.add(stars);
 //   Simulation simulation(scheme, dt);
@@ -26,30 +25,30 @@ class ErrorSamples;
 class MultipoleEngine;
 struct LoadedSources;
 
-/// What a scheme of multipoles has found and chosen.
+/// The measured accuracy of a multipole scheme and its chosen parameters.
 struct MultipoleAccuracy {
-  /// The error of 200 particles' influences against direct sums, as `tolerance`; 0: summed directly.
+  /// The error of at least 200 particles' influences against direct sums, as `tolerance`; 0: all pairs are summed
+  /// directly.
   double measured = 0;
-  int order = 0;                                       ///< of the expansions; 0: everything is summed directly
+  int order = 0;                                       ///< of the expansions; 0: all pairs are summed directly
   std::size_t nodes = 0, translations = 0, pairs = 0;  ///< of the last calculation
 };
 
 class MultipoleScheme final : public Scheme, public RestoredInfluences {
  public:
-  /// `tolerance`: the error of influences, sqrt(sum |error|^2 / sum |influence|^2) over all particles (those in the
-  /// second sum without the fiftieth that feels most, so that a close pair does not count for all). What the expansions
-  /// need for it is found when the scheme first calculates, by comparing with direct sums for 200 particles or more,
-  /// and looked at again every 64 calculations. Few particles are summed directly.
-  /// Along periodic axes everything repeats for ever. If all axes are, strengths have to cancel, or to have a
-  /// background; nothing is polarised from outside, as in ewald_sums(). If some are, potentials far from a strength go
-  /// to -(C/2) |z|/area by a layer, -(C/2 pi) ln r / edge by a row. A softening acts on what is nearby.
-  /// Error if the box is not of 2 or 3 dimensions, has mirrors or regions, or if the tolerance is not between 1e-10 and
-  /// 0.1.
+  /// `tolerance`: the error of influences, sqrt(sum |error|^2 / sum |influence|^2) over all particles (in the second
+  /// sum without the fiftieth with the strongest influences, so that a close pair does not dominate). The expansion
+  /// parameters are tuned at the first calculation, by comparison with direct sums for 200 particles or more, and
+  /// checked again every 64 calculations. Few particles are summed directly. Along periodic axes the system repeats
+  /// infinitely. If all axes are periodic, strengths must cancel or have a background, with conducting boundary
+  /// conditions at infinity as in ewald_sums(). If some are, potentials far from a strength approach -(C/2) |z|/area
+  /// for a layer, -(C/2 pi) ln r / edge for a row. A softening acts on nearby particles. Throws Error if the box is not
+  /// of 2 or 3 dimensions, has mirrors or regions, or if the tolerance is not between 1e-10 and 0.1.
   MultipoleScheme(Box box, LaplaceLaw const& law, double tolerance);
-  /// Vortices carry each other and fluid particles, by BiotSavart or one of its kind. In 3D the tolerance is kept for
-  /// velocities and for what the flow does to the vorticity of Inviscid and its kind, each by itself. If all axes are
-  /// periodic vorticities have to cancel (in 2D, or have a background that turns), and the flow is zero in the mean.
-  /// Mirror axes are walls that slip and rest, as they stand when the scheme is made: vortices have images beyond them.
+  /// Vortices advect each other and fluid particles, by BiotSavart or a similar law. In 3D the tolerance applies
+  /// separately to velocities and to the rate of change of the vorticity of Inviscid and similar classes. If all axes
+  /// are periodic, vorticities must cancel (in 2D, or have a rotating background), and the mean flow is zero. Mirror
+  /// axes are slip walls at rest, in their positions at construction; vortices have images beyond them.
   MultipoleScheme(Box box, VortexLaw const& law, double tolerance);
   ~MultipoleScheme() override;
 
@@ -57,19 +56,19 @@ class MultipoleScheme final : public Scheme, public RestoredInfluences {
   /// The law of charges or masses; none: vortices.
   std::optional<LaplaceLaw> const& law() const { return law_; }
 
-  /// The particles of an ensemble influence each other: by their strength(), under gravity by their mass if the class
-  /// has no other strength, vortices by their vorticity. Further schemes may act on the same ensemble. Error if the law
-  /// does not act between such particles.
+  /// Adds an ensemble whose particles influence each other: by their strength(), under gravity by their mass if the
+  /// class has no other strength, vortices by their vorticity. Further schemes may act on the same ensemble. Throws
+  /// Error if the law does not act between such particles.
   template <class P>
   void add(Ensemble<P>& ensemble) {
     static_assert(FieldParticle<P>,
                   "multipoles act on classes with mass and velocity and a force as influence, and on Tracer's");
     add(ensemble, source_kind<P>());
   }
-  /// For code that knows classes only at run time.
+  /// For code that selects classes at run time.
   void add(AnyEnsemble& ensemble, SourceKind const& kind);
 
-  /// These particles feel the field without making it (test particles): of a class that could make it, or Tracer.
+  /// Adds test particles, which feel the field without creating it: of a class that could create it, or Tracer.
   template <class P>
   void add_test_particles(Ensemble<P>& ensemble) {
     static_assert(FieldParticle<P>,
@@ -77,13 +76,13 @@ class MultipoleScheme final : public Scheme, public RestoredInfluences {
     add_test_particles(ensemble, source_kind<P>());
   }
   void add_test_particles(AnyEnsemble& ensemble, SourceKind const& kind);
-  /// A uniform background that makes a box with periodic axes alone neutral. Error for other boxes, and for vortices in
-  /// 3D, whose vorticities have to cancel.
+  /// A uniform background that neutralises a box whose axes are all periodic. Throws Error for other boxes, and for
+  /// vortices in 3D, whose vorticities must cancel.
   void background(bool yes);
 
-  /// The field of the particles at places that need not be theirs, and its potential: influence and energy of a
-  /// particle there are its strength times these. As accurate as influences; it takes as long. PhysicsFailure if a
-  /// particle is at such a place (and the law is not softened). Error if the scheme is of vortices.
+  /// The field at arbitrary places, and its potential. The influence on and the energy of a particle there are its
+  /// strength times these. The accuracy and the cost are those of influences. Throws PhysicsFailure if a particle is at
+  /// such a place (unless the law is softened); Error if the scheme is of vortices.
   template <int D>
   struct FieldAt {
     Vector<D> field;
@@ -91,23 +90,23 @@ class MultipoleScheme final : public Scheme, public RestoredInfluences {
   };
   template <int D>
   std::vector<FieldAt<D>> field_at(std::vector<Vector<D>> const& places);
-  /// The velocity of the flow at places. Error unless the scheme is of vortices.
+  /// The velocity of the flow at places. Throws Error unless the scheme is of vortices.
   template <int D>
   std::vector<Vector<D>> velocity_at(std::vector<Vector<D>> const& places);
-  /// A scheme for the slopes of the velocity of vortices in 3D, to the tolerance: a simulation can't have it. What it
-  /// gives are 12 numbers at each particle, or at each place of 3 numbers: the velocity, and the gradients of its
-  /// components one after the other. A particle's own vorticity is not in what is found there.
+  /// A scheme for the velocity gradient of vortices in 3D, to the tolerance. It can't be part of a simulation. Its
+  /// result is 12 numbers at each particle, or at each place of 3 numbers: the velocity, and the gradients of its
+  /// components one after the other. The contribution of a particle's own vorticity is excluded.
   static std::unique_ptr<MultipoleScheme> of_slopes(Box const& box, VortexLaw const& law, double tolerance);
   std::vector<double> slopes_at_particles();
   std::vector<double> slopes_at(double const* places, std::size_t count);
-  /// Lets mesh_fields() have the potential and the field (of vortices the velocity) on the nodes of a grid with so many
-  /// cells, for pictures and files; no particle feels it. Error unless there is a number for each axis.
+  /// Makes mesh_fields() return the potential and the field (for vortices the velocity) on the nodes of a grid with
+  /// these cells, for pictures and files. Particles don't feel it. Throws Error unless there is a number for each axis.
   void grid(std::vector<std::size_t> const& cells);
   std::vector<MeshField const*> mesh_fields() override;
 
-  /// The error as it stands, and what was chosen; chooses if that has not been done. Measuring costs 200 N pairs.
+  /// The current error and the chosen parameters. Chooses them at the first call. Measuring costs 200 N pairs.
   MultipoleAccuracy accuracy();
-  /// The same with another tolerance for these particles, and the seconds that it takes to calculate all influences.
+  /// The accuracy at another tolerance for these particles, and the seconds to calculate all influences.
   struct Trial {
     MultipoleAccuracy accuracy;
     double seconds;
@@ -122,7 +121,7 @@ class MultipoleScheme final : public Scheme, public RestoredInfluences {
   std::string explain(AnyEnsemble const& ensemble, std::size_t i) const override;
   void make_reversible(double quantum) override;
   std::string undivided() const override { return ""; }
-  /// All ranks have all particles, and each finds what a part of them feels.
+  /// All ranks have all particles, and each calculates the influences on a part of them.
   void divide(Division* division) override { division_ = division; }
   std::size_t bytes() const override;
   std::string summary() const override;
@@ -139,7 +138,7 @@ class MultipoleScheme final : public Scheme, public RestoredInfluences {
 
   void load(AnyEnsemble& ensemble, SourceKind const& kind, bool acts);
   void calculate_field(bool with_potential);
-  /// At so many places of D numbers, behind the particles.
+  /// Calculates at this number of places of D numbers, after the particles.
   void calculate_at(double const* places, std::size_t count);
   template <int D>
   void calculate_at(std::vector<Vector<D>> const& places);
@@ -159,15 +158,16 @@ class MultipoleScheme final : public Scheme, public RestoredInfluences {
   std::optional<LaplaceLaw> law_;
   std::optional<VortexLaw> vortex_law_;
   double tolerance_;
-  Division* division_ = nullptr;  // while a run is divided
+  Division* division_ = nullptr;  // set during a divided run
   std::vector<LoadedSources> loaded_;
   std::unique_ptr<MultipoleEngine> engine_;
-  double criterion_ = 0;  // the error that one interaction may make; 0: not chosen yet
+  double criterion_ = 0;  // allowed error of one interaction; 0: not chosen yet
   double measured_ = 0;
   int order_ = 0;  // 0: not chosen yet
   std::size_t until_check_ = 0;
-  std::size_t repeated_ = 0;               // calculations that a resumed run does again
-  std::uint64_t counted_ = 0;              // the checksum of the last influences' particles, if they counted for that
+  std::size_t repeated_ = 0;  // calculations that a resumed run repeats
+  // checksum of the particles of the last influences, if that calculation counted
+  std::uint64_t counted_ = 0;
   std::optional<MultipoleAccuracy> last_;  // of the last influences
   bool background_ = false;
   std::optional<MeshGrid> grid_;

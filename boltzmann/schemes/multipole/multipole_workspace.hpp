@@ -1,4 +1,4 @@
-// What a thread needs to calculate multipoles. Included by multipole_field.cpp alone.
+// The workspace of a thread for multipoles. Included by multipole_field.cpp only.
 #pragma once
 
 #include <boltzmann/schemes/multipole/multipole_field.hpp>
@@ -32,25 +32,25 @@ void add_to(double* sum, Vector<D> const& part) {
 
 }  // namespace multipole
 
-/// Where expansions are evaluated.
+/// Arguments and results of evaluations of expansions.
 template <class Kind>
 struct MultipoleField<Kind>::Scratch {
   std::vector<PlacedAmount> places;
   std::vector<double> field, value, curl;
 };
 
-/// What a thread needs besides.
+/// Further memory of a thread.
 template <class Kind>
 struct MultipoleField<Kind>::Workspace {
   std::vector<Other> open;
-  std::vector<Other> far;       ///< their moments to the local expansion
-  std::vector<Other> outside;   ///< their moments to the particles of a wide leaf
-  std::vector<Other> expanded;  ///< particles of wide leaves to the local expansion
-  std::vector<Other> near;      ///< particles to particles
-  std::vector<Other> later;     ///< for the children
+  std::vector<Other> far;       ///< M2L: moments to the local expansion
+  std::vector<Other> outside;   ///< M2P: moments to the particles of a wide leaf
+  std::vector<Other> expanded;  ///< P2L: particles of wide leaves to the local expansion
+  std::vector<Other> near;      ///< P2P: particles to particles
+  std::vector<Other> later;     ///< to be met by the children
   std::vector<Shifted> shifted;
-  std::vector<Point> sources, bare;  ///< bare: of images that are not softened
-  /// Of `outside`, for softened laws.
+  std::vector<Point> sources, bare;  ///< bare: those of unsoftened images
+  /// Corrections of `outside`, for softened laws.
   struct Softened {
     std::array<SofteningMoments, Kind::densities> moments;
     std::array<double, 3> centre;
@@ -59,7 +59,7 @@ struct MultipoleField<Kind>::Workspace {
   std::vector<Softened> softened;
   Scratch scratch;
   std::size_t translations = 0, pairs = 0;
-  WorkShares::Work work{};  ///< in parts of this rank's stretch
+  WorkShares::Work work{};  ///< in parts of this rank's range
 };
 
 template <class Kind>
@@ -67,7 +67,7 @@ typename MultipoleField<Kind>::Cluster MultipoleField<Kind>::particles_of(TreeNo
   return {tree_.particles().data() + node.begin, node.size(), node.centre, node.radius};
 }
 
-/// Places and amounts, where expansions read them.
+/// Positions and strengths, in the layout that expansions read.
 template <class Kind>
 NodeParticles MultipoleField<Kind>::amounts_of(Cluster const& target, int density, std::vector<PlacedAmount>& copy) {
   NodeParticles amounts{nullptr, target.count, {}, target.radius};

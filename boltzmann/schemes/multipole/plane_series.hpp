@@ -1,10 +1,8 @@
 // Plane series: expansions of ln r in 2D, W of them at a time (Greengard and Rokhlin 1987), with z = x + i y.
-//
 //   sum q ln(z - z_q) = a_0 ln z + sum_k a_k / z^k,   a_0 = sum q, a_k = -sum q z_q^k / k      far from the strengths
 //   sum q ln(z - z_q) = sum_l b_l z^l                                                          away from them
-//
-// Coefficients are stored over powers of the radius of their node, the real part of k at 2 k, the imaginary one behind
-// it.
+// Coefficients are divided by powers of the radius of their node. The real part of k is at index 2 k, followed by the
+// imaginary one.
 #pragma once
 
 #include <boltzmann/core/pack.hpp>
@@ -84,7 +82,7 @@ class PlaneSeries {
     for (int l = 1; l <= order; ++l, power = power * inverse) sums[2 * l] += power.re, sums[2 * l + 1] += power.im;
   }
 
-  /// The derivative of a series of one expansion at W places, and the real part of its value if that is wanted.
+  /// The derivative of the series of one expansion at W places, and on request the real part of its value.
   struct Value {
     Number slope;
     Real value;

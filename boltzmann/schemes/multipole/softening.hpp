@@ -1,5 +1,5 @@
-// Softening: by what a softened law differs from 1/r (2D: from -ln r), which no expansion in harmonics has. It is small
-// and smooth where expansions act, so that two terms of Taylor's series do. Private to this room.
+// Softening: the difference of a softened law from 1/r (2D: from -ln r), which harmonic expansions cannot represent. It
+// is small and smooth where expansions act, so two terms of its Taylor series suffice. Private to this module.
 #pragma once
 
 #include <boltzmann/core/vector.hpp>
@@ -8,8 +8,9 @@
 
 namespace boltzmann {
 
-/// With s^2 = r^2 + eps^2, K(r) = 1/s - 1/r of Plummer's (2D: -ln s + ln r), 1/s + eps^2/(2 s^3) - 1/r of the algebraic
-/// one (2D: -ln s + ln r + eps^2/(2 s^2)); nothing beyond some eps of one that ends.
+/// With s^2 = r^2 + eps^2, the difference K(r) is 1/s - 1/r for Plummer softening (2D: -ln s + ln r), 1/s + eps^2/(2
+/// s^3) - 1/r for the algebraic one (2D: -ln s + ln r + eps^2/(2 s^2)), and zero beyond a few eps for laws of compact
+/// support.
 enum class Softening { plummer, algebraic, ends };
 
 template <int D>
@@ -21,7 +22,7 @@ class SofteningCorrection {
     Vector<D> dipole{};
   };
 
-  /// Adds what sources make about a place that lies at r from their centre; with the square of their eps.
+  /// Adds the effect of sources about a place at r from their centre, given the square of their eps.
   void add(Softening softening, Moments const& source, Vector<D> const& r, double softening2) {
     auto const k = derivatives(softening, dot(r, r), softening2);
     double const along = dot(r, source.dipole);
@@ -31,7 +32,7 @@ class SofteningCorrection {
       for (int b = 0; b < D; ++b) curve_[a][b] += source.strength * (k.second * r[a] * r[b] + (a == b ? k.first : 0));
     }
   }
-  /// The same about another place, at x from this.
+  /// The same about another place, at x from this one.
   SofteningCorrection at(Vector<D> const& x) const {
     SofteningCorrection there = *this;
     there.value_ = value(x);

@@ -4,11 +4,11 @@
 //   Y_n^m = r^n P_n^m(cos theta) exp(i m phi) / (n + m)!      1/|x - y| = sum conj(Y_n^m(y)) T_n^m(x),   |y| < |x|
 //   T_n^m = (n - m)! P_n^m(cos theta) exp(i m phi) / r^(n+1)
 //
-// Moments are M_n^m = sum q Y_n^m(y), local expansions F_n^m give the potential sum conj(Y_n^m(x)) F_n^m. Both are
+// Moments are M_n^m = sum q Y_n^m(y). Local expansions F_n^m give the potential sum conj(Y_n^m(x)) F_n^m. Both are
 // stored times sqrt((n - m)! (n + m)!) or its inverse, which makes rotations orthogonal, and over powers of the radius
-// of their node, so that all numbers are of the size of the strengths. To translate them they are turned until the
-// shift points along z, where a translation mixes orders n and leaves m alone: O(p^3) in all. Turns about z multiply by
-// cos and sin; the others are turns about z between two exchanges of x and z, whose matrices are constant and sparse.
+// of their node, so that all numbers have the magnitude of the strengths. To translate them, they are rotated until the
+// shift points along z, where a translation mixes orders n but not m: O(p^3) in all. Rotations about z multiply by cos
+// and sin. The others are rotations about z between two exchanges of x and z, whose matrices are constant and sparse.
 #pragma once
 
 #include <boltzmann/core/pack.hpp>
@@ -17,13 +17,14 @@
 
 namespace boltzmann::multipole {
 
-/// Where the coefficient (n, m) stands: of each n the real parts of even m, of odd m, then the imaginary parts so.
+/// The index of coefficient (n, m): for each n the real parts of even m, then of odd m, then the imaginary parts in the
+/// same order.
 constexpr int real_at(int n, int m) { return n * n + (m % 2 == 0 ? m / 2 : n / 2 + 1 + m / 2); }
 constexpr int imaginary_at(int n, int m) { return n * n + n + (m % 2 == 0 ? m / 2 : n / 2 + 1 + m / 2); }
 
 enum class Translation { moments_to_local, moments, local };
 
-/// out = matrix in, for so many rows at once.
+/// out = matrix in, for this number of rows at once.
 template <int rows, int W>
 [[gnu::always_inline]] inline void multiply(double const* matrix, int columns, Pack<double, W> const* in,
                                             Pack<double, W>* out) {
@@ -40,8 +41,8 @@ class SolidHarmonics {
   using Real = Pack<double, W>;
   static constexpr int most = highest_expansion_order + 1;
 
-  /// Of `in` (numbers of W expansions, of which nothing is kept) makes `out`: each about a centre that lies `shift`
-  /// further (from the source's to the target's), from a node of one radius to a node of another.
+  /// Translates `in` (numbers of W expansions, which are overwritten) to `out`: to a centre shifted by `shift` (from
+  /// the source's to the target's), from the radius of one node to that of another.
   template <Translation kind>
   static void translate(ExpansionView const& tables, Vector<3, Real> const& shift, Real from_radius, Real to_radius,
                         Real* in, Real* out) {
@@ -76,7 +77,7 @@ class SolidHarmonics {
     });
   }
 
-  /// Calls use(n, m, real part, imaginary part) of factor Y_n^m(x) for all n of an order and m from 0.
+  /// Calls use(n, m, real part, imaginary part) of factor Y_n^m(x) for all n up to an order and m from 0.
   template <class Use>
   [[gnu::always_inline]] static void each(int order, Vector<3, Real> const& x, Real factor, Use const& use) {
     Real const r2 = dot(x, x);
@@ -125,7 +126,7 @@ class SolidHarmonics {
   }
 
  private:
-  /// Two turns about z, with exchanges of x and z between and after them, that bring a shift to the z axis.
+  /// Two rotations about z, with exchanges of x and z between and after them, that rotate a shift onto the z axis.
   struct Turn {
     Real cos_first[most], sin_first[most], cos_second[most], sin_second[most], distance, inverse;
 
@@ -136,14 +137,14 @@ class SolidHarmonics {
       auto const off_axis = across2 > zero, apart = square > zero;
       inverse = select(apart, rsqrt(square), zero);
       distance = square * inverse;
-      // Into the plane of y and z, which is that of x and y once exchanged; there onto the axis.
+      // Into the plane of y and z, which is that of x and y after the exchange; there onto the axis.
       powers(order, select(off_axis, shift[1] * inverse_across, one),
              select(off_axis, -(shift[0] * inverse_across), zero), cos_first, sin_first);
       powers(order, select(apart, shift[2] * inverse, one), select(off_axis, across2 * inverse_across * inverse, zero),
              cos_second, sin_second);
     }
 
-    /// From then on the turns lead back.
+    /// Inverts the rotations.
     void reverse(int order) {
       for (int m = 1; m <= order; ++m) sin_first[m] = -sin_first[m], sin_second[m] = -sin_second[m];
     }
@@ -157,7 +158,7 @@ class SolidHarmonics {
     }
   };
 
-  /// What orders are multiplied with before and after a translation along z, and the shift's powers over n!.
+  /// Factors of orders before and after a translation along z, and the shift's powers over n!.
   struct Axis {
     Real before[most], after[most], steps[most];
 
@@ -266,8 +267,8 @@ class SolidHarmonics {
     }
   }
 
-  /// Sums over the orders k of what came in, for four orders n: moments to local of (n + k)! (the signs and powers of
-  /// the distance stand outside), moments of steps[n - k] and local of steps[k - n].
+  /// Sums over the input orders k, for four orders n. Moments to local: terms of (n + k)! (signs and powers of the
+  /// distance are factors outside); moments: of steps[n - k]; local: of steps[k - n].
   template <Translation kind>
   [[gnu::always_inline]] static void mix(ExpansionView const& tables, Axis const& axis, int n, int m, Real const* re,
                                          Real const* im, Real* sum_re, Real* sum_im) {

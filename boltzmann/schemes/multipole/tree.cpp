@@ -1,4 +1,4 @@
-// Boxes are cut in the middle of what they hold.
+// Boxes are cut in the middle of the tight bounds of their particles.
 #include <boltzmann/core/threads.hpp>
 #include <boltzmann/particles/vortex.hpp>
 #include <boltzmann/schemes/mesh/point_source.hpp>
@@ -12,7 +12,7 @@
 namespace boltzmann {
 namespace {
 
-/// The ends of what is in a range.
+/// The bounds of a range of particles.
 template <int D>
 struct Ends {
   std::array<double, 3> low, high;
@@ -35,8 +35,7 @@ struct Ends {
   }
 };
 
-/// Which axes are cut: those that are not much shorter than the longest, and of these no more than it takes to come
-/// down to `leaf` particles.
+/// The axes to cut: those not much shorter than the longest, but only as many as needed to reach `leaf` particles.
 template <int D>
 std::array<bool, 3> cuts(Ends<D> const& ends, std::size_t count, std::size_t leaf) {
   std::array<int, 3> order{0, 1, 2};
@@ -84,7 +83,7 @@ void Tree<P>::split(std::vector<TreeNode>& nodes, std::size_t number, std::size_
   std::array<std::uint32_t, 9> begin{};
   for (std::size_t i = 0; i < count; ++i) ++begin[part(first[i]) + 1];
   if (std::find(begin.begin(), begin.end(), count) != begin.end())
-    return;  // neighbouring numbers: nothing between them
+    return;  // adjacent floating-point numbers: no cut between them
   for (std::size_t k = 0; k < 8; ++k) begin[k + 1] += begin[k];
   auto at = begin;
   for (std::size_t i = 0; i < count; ++i) {
@@ -106,7 +105,7 @@ void Tree<P>::split(std::vector<TreeNode>& nodes, std::size_t number, std::size_
   nodes[number] = node;
 }
 
-/// Of a node makes all that is below it, branch by branch: what a branch holds stays in the cache.
+/// Builds the subtree of a node, branch by branch; the particles of a branch stay in the cache.
 template <class P>
 std::vector<TreeNode> Tree<P>::branch(TreeNode const& root, std::size_t leaf) {
   std::vector<TreeNode> nodes{root};
@@ -134,7 +133,8 @@ void Tree<P>::build(std::vector<Point> particles, std::size_t leaf, int threads)
   root.end = static_cast<std::uint32_t>(particles_.size());
   if (root.end == 0) return;
   nodes_.push_back(root);
-  // The uppermost nodes one by one, then branches beside each other: the same of them for any number of threads.
+  // Splits the uppermost nodes serially, then branches in parallel. The result does not depend on the number of
+  // threads.
   std::size_t const large = std::max<std::size_t>({leaf, particles_.size() / 64, 4096});
   std::vector<std::size_t> roots;
   for (std::size_t i = 0; i < nodes_.size(); ++i)
@@ -156,13 +156,13 @@ void Tree<P>::build(std::vector<Point> particles, std::size_t leaf, int threads)
   for (auto const& one : branches) total += one.size() - 1;
   nodes_.reserve(total);
   for (std::size_t k = 0; k < roots.size(); ++k) {
-    std::size_t const further = nodes_.size() - 1;  // the first of a branch stands among the uppermost
+    std::size_t const further = nodes_.size() - 1;  // the first node of a branch is stored with the uppermost ones
     for (auto& node : branches[k]) node.child += static_cast<std::uint32_t>(node.leaf() ? 0 : further);
     nodes_[roots[k]] = branches[k].front();
     nodes_.insert(nodes_.end(), branches[k].begin() + 1, branches[k].end());
     branches_.push_back({further + 1, nodes_.size()});
   }
-  // A node without extent would divide by nothing.
+  // A radius of zero would cause a division by zero.
   double const least = !(nodes_.front().radius > 0) ? 1 : 1e-10 * nodes_.front().radius;
   for (auto& node : nodes_) node.radius = std::max(node.radius, least);
 }

@@ -1,5 +1,4 @@
-// UniformBackground: what makes a box neutral that is periodic along all axes is spread over all space. Private to this
-// room.
+// UniformBackground: the uniform density that neutralises a box with periodic axes only. Private to this module.
 #pragma once
 
 #include <boltzmann/core/exact_sum.hpp>
@@ -11,11 +10,11 @@
 
 namespace boltzmann {
 
-/// Of one density: its potential is c sum q |x - y|^2, c for a unit strength.
+/// The background of one density: its potential is c sum q |x - y|^2, c for a unit strength.
 template <int D>
 class UniformBackground {
  public:
-  /// `amount`: of each particle. Places are taken about this origin.
+  /// `amount`: strength of each particle. Positions are relative to this origin.
   template <class Points, class Amount>
   void find(ImageLattice const& lattice, Points const& particles, Amount const& amount,
             std::array<double, 3> const& origin) {
@@ -36,7 +35,7 @@ class UniformBackground {
     strength_ = strength.value(), second_ = second.value();
     for (int a = 0; a < D; ++a) first_[a] = first[a].value();
   }
-  /// Before find() has been called there is none.
+  /// False before find() has been called.
   bool exists() const { return of_square_ != 0; }
 
   /// At a place, over the constant of the law.
@@ -59,8 +58,8 @@ class UniformBackground {
 
   double of_square_ = 0;
   std::array<double, 3> origin_{};
-  double strength_ = 0, second_ = 0;  // of all particles, and times their squares
-  Vector<D> first_{};                 // and times their places
+  double strength_ = 0, second_ = 0;  // of all particles: sums of strength, and times squared position
+  Vector<D> first_{};                 // and times position
 };
 
 }  // namespace boltzmann

@@ -1,4 +1,4 @@
-// Vortices: their vorticity and cores, the velocity of the flow, and what it does to vorticity.
+// Vortices: their vorticity and cores, the velocity of the flow, and the rate of change of vorticity.
 #include <boltzmann/core/exact_sum.hpp>
 #include <boltzmann/schemes/flow_classes.hpp>
 #include <boltzmann/schemes/multipole/multipole_engine.hpp>
@@ -56,8 +56,8 @@ class VortexEngine final : public EngineOf<Kind> {
     double const count = static_cast<double>(std::max<std::size_t>(1, this->count())),
                  rms = std::sqrt(squares.value() / count);
     double const core = std::sqrt(cores.value() / count);
-    // In a row of vortices all that one feels may cancel, and a ring is hardly stretched: a hundredth of what a
-    // neighbour does.
+    // In a row of vortices all influences may cancel, and a ring is hardly stretched. Use a hundredth of the influence
+    // of a neighbour.
     least_field_ = this->any_periodic() ? 1e-2 * this->constant() * rms * std::pow(this->spacing(), 1 - D) : 0;
     least_slope_ = core > 0 ? 1e-2 * this->constant() * rms / (core * core * core) : 0;
   }
@@ -96,7 +96,7 @@ class VortexEngine final : public EngineOf<Kind> {
   bool singular() const override { return false; }
 
  private:
-  /// Behind the particles, those of their vortices beyond walls.
+  /// Adds the images of the vortices beyond walls, after the particles.
   void add_images() {
     if (!box_.any_wall()) return;
     check_walls_of_flow(box_, "multipoles");

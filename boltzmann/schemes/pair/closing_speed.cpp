@@ -1,4 +1,4 @@
-// Mean and thermal velocities of two ensembles, and the walls that they meet.
+// Mean and thermal velocities of two ensembles, and the walls that they approach.
 #include <boltzmann/boundaries/box.hpp>
 #include <boltzmann/particles/ensemble.hpp>
 #include <boltzmann/schemes/pair/closing_speed.hpp>

@@ -1,4 +1,4 @@
-// External influences: a law of one particle, from outside.
+// External influences: laws that act on single particles.
 #pragma once
 
 #include <boltzmann/laws/interaction.hpp>
@@ -15,21 +15,21 @@ namespace boltzmann {
 struct ExternalTask {
   double const* rows = nullptr;
   std::size_t row_stride = 0;           ///< doubles from row to row
-  std::uint32_t const* only = nullptr;  ///< the particles it acts on; null: all
+  std::uint32_t const* only = nullptr;  ///< the particles on which it acts; null: all
   double time = 0;
   double* influence = nullptr;
   double* energy = nullptr;  ///< measuring: energy of each particle in the field
-  // Of rates, which have no influence:
-  RatePlaces rates, sums;  ///< where they come, and where sums of particle 0 are
-  std::size_t first = 0;   ///< the particle whose rates come first
-  bool store = false;      ///< they are stored, else added
+  // For laws that give rates instead of an influence:
+  RatePlaces rates, sums;  ///< layout of the results, and of the sums of particle 0
+  std::size_t first = 0;   ///< the first particle of the results
+  bool store = false;      ///< true: store; false: add
 };
 
 using ExternalKernel = void (*)(void const* law, ExternalTask const& task, std::size_t begin, std::size_t end);
 
 struct ExternalKernels {
   ExternalKernel influence = nullptr, measure = nullptr;
-  RotationKernel rotate = nullptr;  ///< of laws that only turn velocities (see UniformMagneticField)
+  RotationKernel rotate = nullptr;  ///< for laws that only rotate velocities (see UniformMagneticField)
   bool has_energy = false;
   bool depends_on_time = false;
 };
@@ -74,8 +74,8 @@ template <Pass pass, int W, class P, class Law>
   }
 }
 
-/// Turns each velocity by atan(Omega time): two such turns by half a step each are Boris' rotation by
-/// 2 atan(Omega dt/2), which has the exact drift in crossed fields.
+/// Rotates each velocity by atan(Omega time). Two such rotations of half a step each are Boris' rotation by 2
+/// atan(Omega dt/2), which has the exact drift in crossed fields.
 template <int W, class P, class Law>
 [[gnu::flatten]] void turn_particles(void const* the_law, RotationTask const& task, std::size_t begin,
                                      std::size_t end) {

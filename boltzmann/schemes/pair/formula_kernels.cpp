@@ -1,4 +1,4 @@
-// The kernels of laws that are formulas, for one instruction set.
+// The kernels of laws given as formulas, for one instruction set.
 #include <boltzmann/core/kernel_unit.hpp>
 #include <boltzmann/schemes/pair/over_columns.hpp>
 

@@ -1,4 +1,4 @@
-// The kernels of laws that are formulas: what they are given, and the table of them.
+// The kernels of laws given as formulas: their arguments and their table.
 #pragma once
 
 #include <boltzmann/core/instruction_set.hpp>
@@ -8,11 +8,11 @@
 
 namespace boltzmann {
 
-/// By dimension, from 1; laws are a PairProgram or an ExternalProgram.
+/// By dimension, from 1; the law is a PairProgram or an ExternalProgram.
 struct FormulaKernelTable {
   PairKernels pairs[3];
   ExternalKernels externals[3];
-  int code_width = 0;  ///< numbers at a time of machine code that goes with these kernels; 0: none does
+  int code_width = 0;  ///< vector width of machine code that is compatible with these kernels; 0: none is
 };
 template <InstructionSet set>
 FormulaKernelTable const& formula_kernels();

@@ -1,4 +1,4 @@
-// Laws that are formulas in a pair scheme: from their programs to the kernels of the instruction set in use.
+// Laws given as formulas in a pair scheme: combines their programs with the kernels of the selected instruction set.
 #include <boltzmann/core/kernel_dispatch.hpp>
 #include <boltzmann/formulas/machine_code.hpp>
 #include <boltzmann/schemes/pair/formula_kernels.hpp>
@@ -17,7 +17,7 @@ FormulaKernelTable const& kernels() {
       [](auto set) -> FormulaKernelTable const& { return formula_kernels<decltype(set)::value>(); });
 }
 
-/// Machine code, where the kernels in use go together with some.
+/// Compiles to machine code if it is compatible with the kernels in use.
 std::shared_ptr<PairProgram const> ready(PairProgram program, int dimension) {
   int const width = kernels().code_width;
   program.influence.code = machine_code(program.influence, width,
@@ -51,7 +51,8 @@ struct ReadyPairs {
     traits.positions_alone = program.of_p.empty() && program.of_q.empty();
     traits.one_way = !program.antisymmetric;
     traits.changes = field_changed(of, target);
-    if (traits.moves()) traits.typed = program.numbers;  // rates may end at once, as those of neighbours do
+    // rates may end at the cut-off discontinuously, as those of neighbours do
+    if (traits.moves()) traits.typed = program.numbers;
     law = ready(std::move(program), target.dimension());
   }
 };
@@ -68,7 +69,7 @@ void PairScheme::internal(AnyEnsemble& ensemble, FormulaLaw const& law, double c
 }
 
 void PairScheme::between(AnyEnsemble& a, AnyEnsemble& b, FormulaLaw const& law, double cutoff) {
-  // An energy is one for both; an influence is that of the other one on p, whichever p is.
+  // An energy belongs to both particles; an influence is that of q on p, for either order.
   auto const part = law.gives == FormulaLaw::Gives::energy ? FormulaLaw::Target::q : FormulaLaw::Target::p;
   ReadyPairs const on_a(law.between(a, b, FormulaLaw::Target::p, cutoff), law, a),
       on_b(law.between(b, a, part, cutoff), law, b);

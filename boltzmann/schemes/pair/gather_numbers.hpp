@@ -1,4 +1,4 @@
-// Numbers of W rows become packs. For kernel units.
+// Gathers numbers of W rows into packs. For kernel units.
 #pragma once
 
 #include <boltzmann/particles/rows.hpp>
@@ -9,10 +9,10 @@
 
 namespace boltzmann::detail {
 
-/// put(n, pack) for numbers n from `first` to `first + count` of a block of the rows that row(lane) points to.
+/// Calls put(n, pack) for numbers n from `first` to `first + count` of a block of the rows that row(lane) points to.
 template <int W, std::size_t first, std::size_t count, class RowOf, class Put>
 [[gnu::always_inline]] inline void gather_numbers(RowOf const& row, Put const& put) {
-  if constexpr (count == 1) {  // fetched by itself
+  if constexpr (count == 1) {  // a single gather
     Pack<double, W> number = 0.0;
     for (int lane = 0; lane < W; ++lane) number.native[lane] = row(lane)[first];
     put(first, number);
@@ -23,8 +23,8 @@ template <int W, std::size_t first, std::size_t count, class RowOf, class Put>
   }
 }
 
-/// A function for each stretch of a block: of<first, count>() is entry [first][count - 1]. Stretches that would end behind
-/// the block have none.
+/// A table of functions, one for each range of a block: of<first, count>() is entry [first][count - 1]. Ranges beyond
+/// the end of the block have none.
 template <class Of>
 constexpr auto for_stretches_of_a_block(Of of) {
   using Function = decltype(of.template operator()<0, 1>());

@@ -1,4 +1,4 @@
-// What a law returns, summed for W particles at once: each has a lane of its own, so that nothing is added across
+// Sums what a law returns, for W particles at once. Each particle has a lane of its own, so nothing is added across
 // lanes.
 #pragma once
 
@@ -20,8 +20,8 @@ template <int W>
   return {typename Mask<double, W>::Native{} - 1};
 }
 
-/// A number in every lane, as a pack that the compiler knows nothing of. Loads spread a number for nothing; of what a law
-/// makes of the numbers of a source alone it would make one number and spread that, which takes a shuffle besides.
+/// Broadcasts a number in a way that is opaque to the compiler. Loads broadcast at no cost. Otherwise the compiler
+/// would compute scalar expressions of a source's numbers first and broadcast the results, which needs extra shuffles.
 template <class Real>
 [[gnu::always_inline]] inline Real spread(auto number) {
   Real pack = number;
@@ -31,7 +31,7 @@ template <class Real>
   return pack;
 }
 
-/// A source in every lane, its numbers from `row`.
+/// A source in every lane, with its numbers from `row`.
 template <class Q, class Real>
 [[gnu::always_inline]] inline rebind_t<Q, Real> spread_row(auto const* row) {
   std::array<Real, row_doubles<Q>> columns;
@@ -71,8 +71,8 @@ class LaneSum {
     }
   }
 
-  /// Gives the sums to the particles of [begin, end) among those that lanes 0, 1, ... stand for: first, first + 1, ...
-  /// Influences are stored or added, all else is added.
+  /// Stores the sums of the particles among first, first + 1, ... (lanes 0, 1, ...) that are in [begin, end).
+  /// Influences are stored or added; all else is added.
   [[gnu::always_inline]] void store(PairTask const& task, std::size_t first, std::size_t begin, std::size_t end,
                                     bool overwrite) const {
     std::size_t const from = begin > first ? begin : first, to = end < first + W ? end : first + W;
@@ -88,7 +88,8 @@ class LaneSum {
         }
     } else {
       for (std::size_t c = 0; c < components; ++c) {
-        auto const influence = as_array<double>(influence_[c]);  // a copy: lanes are chosen in memory, not in registers
+        // a copy, so that lanes are selected in memory, not in registers
+        auto const influence = as_array<double>(influence_[c]);
         for (std::size_t i = from; i < to; ++i) {
           double& total = task.influence[i * components + c];
           total = overwrite ? influence[i - first] : total + influence[i - first];
@@ -103,7 +104,7 @@ class LaneSum {
   Real virial_[D * D];
 };
 
-/// The particles first, first + 1, ... as one particle of packs; past the last one, that one again.
+/// The particles first, first + 1, ... as one particle of packs. Past the end, the last particle is repeated.
 template <class P, int W>
 [[gnu::always_inline]] inline rebind_t<P, Pack<double, W>> load_neighbouring_rows(double const* rows,
                                                                                   std::size_t stride, std::size_t first,

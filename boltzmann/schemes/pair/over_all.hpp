@@ -1,4 +1,4 @@
-// The traversal of all pairs: lanes are targets, and every source goes past them.
+// The traversal of all pairs: lanes are targets, and the loop runs over all sources.
 #pragma once
 
 #include <boltzmann/schemes/pair/lane_sum.hpp>
@@ -7,20 +7,21 @@ namespace boltzmann {
 
 namespace detail {
 
-/// Packs of targets that share one load of a source: two keep the arithmetic units of 32 registers busy, and of 16 one;
-/// four of two numbers each fit in 32, and share what a law makes of a source alone, too.
+/// The number of target packs that share one load of a source. Two keep the arithmetic units busy with 32 registers,
+/// one with 16. Four packs of two components each fit into 32, and also share what a law computes from the source
+/// alone.
 template <int W, std::size_t components>
 inline constexpr int target_packs = W < 8             ? 1
                                     : components <= 2 ? 4
                                                       : 2;
 
-/// Sources whose influences are summed before they are added to the total: rounding errors grow with this number and
-/// with that of such groups, not with their product.
+/// The number of sources whose influences are summed before they are added to the total. Rounding errors grow with this
+/// number plus the number of groups, not with their product.
 inline constexpr std::size_t source_group = 1024;
 
-/// Every target sums the sources in their order, in groups, whatever targets stand beside it: the result has the same
-/// bits for every division into ranges. Blocks of targets begin at multiples of their size, so that a range which does
-/// not begin there computes up to a block that is not its own; ranges of several blocks lose nothing.
+/// Every target sums the sources in their order, in groups, independent of the other targets. So the result has the
+/// same bits for every division into ranges. Blocks of targets begin at multiples of their size. A range that does not
+/// begin there also computes the targets of its first block outside the range; ranges of several blocks lose nothing.
 template <Pass pass, int W, class P, class Q, class Law>
 [[gnu::flatten]] void over_all(void const* the_law, PairTask const& task, std::size_t begin, std::size_t end) {
   constexpr int packs = pass == Pass::measure ? 1 : target_packs<W, LaneSum<pass, W, P, Q, Law>::components>;
@@ -40,7 +41,7 @@ template <Pass pass, int W, class P, class Q, class Law>
       std::size_t const self_begin = task.same && first < group_end ? first : group_end;
       std::size_t const self_end = task.same && first + block < group_end ? first + block : group_end;
       LaneSum<pass, W, P, Q, Law> sum[packs];
-      // Up to the block's own particles without a mask, past them with one, and on without.
+      // Without a mask up to the block's own particles, with a mask there, then without again.
       for (std::size_t const pause : {self_begin, group_end}) {
         for (; j < pause; ++j) {
           auto const q = spread_row<Q, Real>(task.source + j * source_stride);

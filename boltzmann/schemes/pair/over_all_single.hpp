@@ -7,19 +7,19 @@ namespace boltzmann {
 
 namespace detail {
 
-/// Sources that are summed in single precision before they are added to the total in double.
+/// The number of sources summed in single precision before they are added to the total in double precision.
 inline constexpr std::size_t single_group = 256;
-/// Packs of targets that share one load of a source.
+/// The number of target packs that share one load of a source.
 template <int W>
 inline constexpr int single_packs = W == 8   ? 4
                                     : W == 4 ? 2
                                              : 1;
 
-/// Numbers of a row that are rounded: whole blocks, as rows have them.
+/// The number of components of a row that are rounded: whole blocks, as in rows.
 template <class P>
 inline constexpr std::size_t rounded_numbers = (row_doubles<P> + row_block - 1) / row_block* row_block;
 
-/// What is taken from the numbers of a row before they are rounded: the place of an origin.
+/// Subtracted from the components of a row before they are rounded: the position of an origin.
 template <class P>
 struct Origin {
   alignas(64) double number[rounded_numbers<P>] = {};
@@ -28,11 +28,11 @@ struct Origin {
   }
 };
 
-/// A row in single precision, places relative to an origin; four numbers at once.
+/// A row in single precision, with positions relative to an origin; four numbers at once.
 template <class P>
 [[gnu::always_inline]] inline void round_row(double const* row, Origin<P> const& origin, float* rounded) {
   typedef float Single __attribute__((vector_size(4 * sizeof(float)), aligned(4), may_alias));
-  typedef Quad Anywhere __attribute__((aligned(8)));  // rows of images beyond walls are not an ensemble's
+  typedef Quad Anywhere __attribute__((aligned(8)));  // rows of images beyond walls are not aligned as in ensembles
   for (std::size_t k = 0; k < rounded_numbers<P>; k += row_block) {
     Quad const numbers =
         *reinterpret_cast<Anywhere const*>(row + k) - *reinterpret_cast<Quad const*>(origin.number + k);
@@ -40,7 +40,7 @@ template <class P>
   }
 }
 
-/// The particles first, first + 1, ... as one particle of packs; past the last one, that one again.
+/// The particles first, first + 1, ... as one particle of packs. Past the end, the last particle is repeated.
 template <class P, int lanes>
 [[gnu::always_inline]] inline rebind_t<P, Pack<float, lanes>> load_rounded_rows(double const* rows, std::size_t stride,
                                                                                 std::size_t first, std::size_t size,
@@ -55,7 +55,7 @@ template <class P, int lanes>
   return std::bit_cast<rebind_t<P, Pack<float, lanes>>>(columns);
 }
 
-/// What some packs of targets feel. Unrolled, so that it stays in registers.
+/// The influences on some packs of targets. Unrolled, so that they stay in registers.
 template <int packs, std::size_t components, class Real>
 struct SingleSums {
   Real of[packs][components];
@@ -80,7 +80,7 @@ struct SingleSums {
   }
 };
 
-/// Some targets side by side, and what they feel from all sources.
+/// Some adjacent targets, and the influences of all sources on them.
 template <int W, class P, class Q, class Law>
 struct SingleBlock {
   static constexpr int lanes = 2 * W, packs = single_packs<W>;
@@ -92,7 +92,7 @@ struct SingleBlock {
   rebind_t<P, Real> p[packs];
   double total[components][size];
 
-  /// The targets first, first + 1, ..., their places relative to the origin.
+  /// Loads the targets first, first + 1, ..., with positions relative to the origin.
   [[gnu::always_inline]] void load(PairTask const& task, std::size_t stride, std::size_t from,
                                    Origin<P> const& origin) {
     first = from;
@@ -103,8 +103,8 @@ struct SingleBlock {
       for (auto& x : of_component) x = 0;
   }
 
-  /// What a group of sources does to all of them, those of numbers from, from + 1, ...: summed in single precision and
-  /// added to the total. If targets are sources, they do nothing to themselves.
+  /// Adds the influences of a group of sources, from number `from` on: summed in single precision and added to the
+  /// total. If targets are sources, self-interaction is excluded.
   [[gnu::always_inline]] void add(Law const& law, float const (*source)[rounded_numbers<Q>], std::size_t from,
                                   std::size_t count, bool same) {
     SingleSums<packs, components, Real> sum;
@@ -115,14 +115,14 @@ struct SingleBlock {
         sum.add([&](int t) { return influence(t, q); });
       }
     };
-    // The block's own particles, [own, own_end) of the group if they are in it, are masked where they meet themselves.
+    // The block's own particles, [own, own_end) of the group if it includes them, are masked against themselves.
     bool const meets = same && first < from + count && from < first + size;
     std::size_t const own = !meets ? count : first > from ? first - from : 0;
     std::size_t const behind = first + size - from, own_end = !meets || behind > count ? count : behind;
     plain(0, own);
     for (std::size_t k = own; k < own_end; ++k) {
       auto const q = spread_row<Q, Real>(source[k]);
-      // its number in the block: a small number, exact in single precision
+      // The index in the block: a small number, exact in single precision.
       auto const self = static_cast<float>(static_cast<std::ptrdiff_t>(from + k) - static_cast<std::ptrdiff_t>(first));
       sum.add([&](int t) {
         auto const other = lane_numbers() != self - static_cast<float>(t * lanes);
@@ -139,7 +139,7 @@ struct SingleBlock {
     });
   }
 
-  /// Gives the totals to the particles of [begin, end).
+  /// Stores the totals of the particles of [begin, end).
   [[gnu::always_inline]] void store(PairTask const& task, std::size_t begin, std::size_t end) const {
     for (std::size_t i = first > begin ? first : begin; i < end && i < first + size; ++i)
       for (std::size_t c = 0; c < components; ++c) {
@@ -156,12 +156,12 @@ struct SingleBlock {
   }
 };
 
-/// Targets for which sources are rounded once.
+/// The number of targets for which sources are rounded once.
 inline constexpr std::size_t single_targets = 128;
 
-/// Every target sums the sources in their order, in groups. Places are rounded once for some blocks, relative to the
-/// first target of these, so that the differences of what is near each other are right. Blocks begin at multiples of
-/// their size, and the result has the same bits for every division into ranges.
+/// Every target sums the sources in their order, in groups. Positions are rounded once for some blocks, relative to the
+/// first target of these, so that differences of nearby positions are accurate. Blocks begin at multiples of their
+/// size, and the result has the same bits for every division into ranges.
 template <int W, class P, class Q, class Law>
 [[gnu::flatten]] void over_all_single(void const* the_law, PairTask const& task, std::size_t begin, std::size_t end) {
   using Block = SingleBlock<W, P, Q, Law>;

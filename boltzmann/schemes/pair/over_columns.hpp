@@ -1,5 +1,5 @@
-// The traversals of laws that are formulas: a row's partners become columns, a program is run on them, and what it gives
-// is masked and summed in the order of the lanes. For kernel units.
+// The traversals of laws given as formulas. The partners of a row become columns, a program runs on them, and its
+// results are masked and summed in the order of the lanes. For kernel units.
 #pragma once
 
 #include <boltzmann/formulas/evaluate.hpp>
@@ -12,8 +12,8 @@
 
 namespace boltzmann::detail {
 
-/// total + x in lanes that count. With AVX-512 instructions have a mask; elsewhere a zero is cheaper than a choice between
-/// two sums. Machine code does the same.
+/// Returns total + x in lanes that count. AVX-512 instructions have a mask. On other processors, adding zero is cheaper
+/// than selecting between two sums. Machine code does the same.
 template <int W>
 [[gnu::always_inline]] inline Pack<double, W> added_where(Mask<double, W> valid, Pack<double, W> x,
                                                           Pack<double, W> total) {
@@ -22,7 +22,7 @@ template <int W>
   else
     return total + select(valid, x, Pack<double, W>(0.0));
 }
-/// The same of a product.
+/// The same for a product.
 template <int W>
 [[gnu::always_inline]] inline Pack<double, W> fused_where(Mask<double, W> valid, Pack<double, W> a, Pack<double, W> b,
                                                           Pack<double, W> total) {
@@ -32,8 +32,8 @@ template <int W>
     return total + select(valid, a, Pack<double, W>(0.0)) * select(valid, b, Pack<double, W>(0.0));
 }
 
-/// A row's sums. The columns of the workspace hold what PairProgram says; a pair that does not count has a square that is
-/// NaN.
+/// The sums of a row. The columns of the workspace have the layout of PairProgram. A pair that does not count has NaN
+/// as its squared distance.
 template <Pass pass, int W, int D>
 class ColumnSum {
  public:
@@ -44,7 +44,7 @@ class ColumnSum {
     for (auto& x : virial_) x = Real(0.0);
   }
 
-  /// The first steps of the program have been done.
+  /// Adds the pairs; the first steps of the program are already done.
   void add(PairProgram const& law, Workspace<W>& work, std::size_t packs, double cutoff2, Real rounding, double zero_at,
            std::size_t done = 0) {
     FormulaProgram const& program = pass == Pass::measure ? law.measure : law.influence;
@@ -89,7 +89,7 @@ class ColumnSum {
       for (std::size_t k = 0; k < packs; ++k)
         energy_ += select(load_pack<W>(square + k * W) < cutoff2, load_pack<W>(energy + k * step), zero);
       if (!(zero_at > 0)) return;
-      stretch(work, packs, cutoff2, zero_at);  // less the energy at the cut-off in the same direction
+      stretch(work, packs, cutoff2, zero_at);  // minus the energy at the cut-off in the same direction
       run_program<W>(work, program, packs);
       for (std::size_t k = 0; k < packs; ++k) {
         Real const s = load_pack<W>(square + k * W);
@@ -98,7 +98,7 @@ class ColumnSum {
     }
   }
 
-  /// Sums that machine code has left in the first columns.
+  /// Adds the sums that machine code has left in the first columns.
   void take(Workspace<W>& work) {
     for (std::size_t c = 0; c < D; ++c) influence_[c] = load_pack<W>(work.column(c));
   }
@@ -117,8 +117,8 @@ class ColumnSum {
   }
 
  private:
-  /// Moves the sources of pairs that count to this distance, in their directions; along x where two particles are at one
-  /// place.
+  /// Moves the sources of pairs that count to this distance, in their directions; along x if two particles are
+  /// coincident.
   static void stretch(Workspace<W>& work, std::size_t packs, double cutoff2, double distance) {
     double* const square = work.column(D);
     for (std::size_t k = 0; k < packs * W; k += W) {
@@ -132,8 +132,8 @@ class ColumnSum {
                     select(s < cutoff2, Real(distance * distance), Real(std::numeric_limits<double>::quiet_NaN())));
     }
   }
-  /// Of an influence on the line of centres. Within a larger function the compiler leaves a sum in memory, for which each
-  /// pack waits.
+  /// Adds an influence along the line of centres. Not inlined, because within a larger function the compiler keeps a
+  /// sum in memory, and each pack waits for it.
   [[gnu::noinline]] void add_along(double const* factor, double const* const* d, double const* square,
                                    std::size_t packs, double cutoff2) {
     Real total[D];
@@ -151,7 +151,7 @@ class ColumnSum {
   Real virial_[D * D];
 };
 
-/// The fields of p, and what follows from these alone. `field(offset)` is the number that stands there.
+/// Loads the fields of p, and computes what follows from these alone. `field(offset)` returns the number at an offset.
 template <int W, class FieldOf>
 void begin_row(PairProgram const& law, FormulaProgram const& program, Workspace<W>& work, FieldOf const& field) {
   for (std::size_t k = 0; k < law.of_p.size(); ++k)
@@ -159,11 +159,11 @@ void begin_row(PairProgram const& law, FormulaProgram const& program, Workspace<
   run_row<W>(work, program);
 }
 
-/// Leading steps that have a loop of their own, in which nothing asks which step it is.
+/// Leading steps with specialised loops, which need no test of the instruction.
 enum class Lead { nothing, reciprocal, root, reciprocal_and_root, any };
 
-/// From the entries of a list, packs of them: q.position - p.position and its square into the first columns, and what
-/// the leading steps make of that.
+/// For packs of list entries: computes q.position - p.position and its square into the first columns, and runs the
+/// leading steps on them.
 template <Lead kind, int W, int D>
 void gather_separations(double const* rows, std::uint32_t const* entries, std::size_t packs, double const* p,
                         Step const* steps, std::size_t leading, double least, Workspace<W>& work) {
@@ -192,13 +192,13 @@ void gather_separations(double const* rows, std::uint32_t const* entries, std::s
   }
 }
 
-/// Where a gathered number goes: into a column, as number * factor + addend, which rounds at most once.
+/// The destination of a gathered number: a column, as number * factor + addend, rounded at most once.
 struct FieldPlace {
   double* to;
   double const *factor, *addend;
 };
 
-/// From the entries of a list, packs of them: numbers `first` to `first + count` of a block of the rows.
+/// For packs of list entries: gathers numbers `first` to `first + count` of a block of the rows.
 template <int W, std::size_t first, std::size_t count>
 void gather_block(double const* rows, std::uint32_t const* entries, std::size_t packs, FieldPlace const* places) {
   for (std::size_t k = 0; k < packs * W; k += W)
@@ -214,12 +214,12 @@ template <int W>
 inline constexpr auto gather_blocks = for_stretches_of_a_block(
     []<std::size_t first, std::size_t count>() -> GatherBlock<W> { return gather_block<W, first, count>; });
 
-/// Which fields of q are gathered, block by block of its row, and the steps of the program that are done to single fields
-/// meanwhile.
+/// The fields of q to gather, block by block of its row, and the steps of the program on single fields that are done in
+/// the same pass.
 template <int W>
 class FieldGathering {
  public:
-  /// Field f stands in column `first_column` + f.
+  /// Field f is stored in column `first_column` + f.
   FieldGathering(PairProgram const& law, FormulaProgram const& program, std::size_t steps, std::size_t first_column,
                  Workspace<W>& work) {
     store_pack<W>(one_, Pack<double, W>(1.0));
@@ -260,7 +260,7 @@ class FieldGathering {
   }
 
   alignas(64) double one_[W], minus_one_[W], minus_zero_[W];
-  Block blocks_[max_columns];  // the first `count_`; a field has a column of its own, so there are no more
+  Block blocks_[max_columns];  // the first `count_`; each field has its own column, so there can't be more
   std::size_t count_ = 0;
 };
 
@@ -285,7 +285,7 @@ void formula_over_list(void const* the_law, PairTask const& task, std::size_t be
   std::size_t const blocks = task.source_block_stride;
   MachineCode::List const whole = pass == Pass::influence && program.code ? program.code->list() : nullptr;
   work.set_scalar(program.scalars + D, task.cutoff2);
-  // The measuring pass runs its program again, for separations that are not those of a list.
+  // The measuring pass runs its program again, for separations that differ from those of a list.
   bool const at_once = pass != Pass::measure || program.of_one_column == 0;
   std::size_t const of_fields = at_once && !program.code ? program.of_one_column : 0;
   std::size_t const leading = at_once ? leading_steps<W>(program, D) : 0;
@@ -309,7 +309,7 @@ void formula_over_list(void const* the_law, PairTask const& task, std::size_t be
     for (std::size_t from = 0; from < task.length[i]; from += block_pairs) {
       std::uint32_t const* const j = task.row[i] + from;
       std::size_t const left = task.length[i] - from, count = left < block_pairs ? left : block_pairs;
-      std::size_t const packs = (count + W - 1) / W;  // entries behind the last one point to no particle
+      std::size_t const packs = (count + W - 1) / W;  // padding entries point to no particle
       gather(task.source, j, packs, p, steps, leading, law.least_square, work);
       fields_of_q(task.source, blocks, j, packs);
       sum.add(law, work, packs, task.cutoff2, task.rounding, task.zero_at, of_fields + leading);
@@ -318,7 +318,7 @@ void formula_over_list(void const* the_law, PairTask const& task, std::size_t be
   }
 }
 
-/// Sources become columns a block at a time, and every target of the range meets them.
+/// Sources become columns a block at a time, and every target of the range interacts with them.
 template <Pass pass, int W, int D>
 void formula_over_all(void const* the_law, PairTask const& task, std::size_t begin, std::size_t end) {
   using Real = Pack<double, W>;

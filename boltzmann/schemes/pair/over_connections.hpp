@@ -1,5 +1,5 @@
-// The traversal of fixed connections, over the nearest periodic image: lanes are particles, and all of them meet their
-// first partner, then all their second, ...
+// The traversal of fixed connections, over the nearest periodic image. Lanes are particles. All of them process their
+// first partner, then their second, ...
 #pragma once
 
 #include <boltzmann/schemes/pair/lane_sum.hpp>
@@ -11,8 +11,8 @@ namespace boltzmann {
 
 namespace detail {
 
-/// In a sheared box: the difference of two positions to the image that is nearest up the gradient. By how many lengths that
-/// is above the second position.
+/// In a sheared box: maps the difference of two positions to the image that is nearest along the gradient. Returns how
+/// many lengths that image is above the second position.
 template <int D, int W>
 [[gnu::always_inline]] inline Pack<double, W> nearest_layer(Vector<D, Pack<double, W>>& d, PairTask const& task) {
   Pack<double, W> above = 0.0;
@@ -22,7 +22,7 @@ template <int D, int W>
   return above;
 }
 
-/// The difference of two positions made the shortest among periodic images: d -= L round(d / L), without a branch.
+/// Maps the difference of two positions to the nearest periodic image: d -= L round(d / L), without a branch.
 template <int D, int W>
 [[gnu::always_inline]] inline void nearest_image(Vector<D, Pack<double, W>>& d, PairTask const& task) {
   for (int a = 0; a < D; ++a) {
@@ -31,9 +31,9 @@ template <int D, int W>
   }
 }
 
-/// A particle without a k-th partner meets itself, which is masked. A list ends before its own particle's number, if
-/// that stands in it. Every lane adds its own partners in their order: the result has the same bits for every division
-/// into ranges.
+/// A particle without a k-th partner is paired with itself, which is masked. A list ends before its own particle's
+/// number, if it contains that. Every lane adds its own partners in their order, so the result has the same bits for
+/// every division into ranges.
 template <Pass pass, int W, class P, class Law>
 [[gnu::flatten]] void over_connections(void const* the_law, PairTask const& task, std::size_t begin, std::size_t end) {
   using Real = Pack<double, W>;

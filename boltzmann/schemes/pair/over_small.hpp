@@ -1,4 +1,4 @@
-// Every pair of a handful of particles once, by scalars.
+// Visits every pair of a few particles once, with scalars.
 #pragma once
 
 #include <boltzmann/schemes/pair/pair_sum.hpp>
@@ -7,12 +7,12 @@
 
 namespace boltzmann {
 
-/// Up to here scalars over half the pairs beat packs over all of them.
+/// Up to this size, scalars over half of the pairs are faster than packs over all of them.
 inline constexpr std::size_t small_system_particles = 24;
 
 namespace detail {
 
-/// Every pair of one ensemble once. For 2, 3 and 4 particles the count is a constant, and all stays in registers.
+/// Every pair of one ensemble once. For 2, 3 and 4 particles the count is a constant, and all data stay in registers.
 template <class P, class Law, class Count>
 [[gnu::always_inline]] inline void each_pair(Law const& law, PairTask const& task, Count count) {
   constexpr std::size_t components = sizeof(typename P::Influence) / sizeof(double);

@@ -1,5 +1,5 @@
-// The kernels of a pair law: every traversal, with the law in its inner loop. W, the numbers at a time, tells the
-// instruction sets apart: the same kernel for another set is another function.
+// The kernels of a pair law: every traversal, with the law in its inner loop. The template parameter W, the vector
+// width, distinguishes the instruction sets, so that their kernels are different functions.
 #pragma once
 
 #include <boltzmann/schemes/pair/over_all.hpp>
@@ -16,7 +16,7 @@ template <class P, class Q, class Law>
 inline constexpr bool gives_energy =
     has_energy<decltype(std::declval<Law const&>()(std::declval<P const&>(), std::declval<Q const&>()))>;
 
-/// True if law(p, q) is what the class of p wants as its influence.
+/// True if law(p, q) returns an influence on the class of p.
 template <class P, class Q, class Law, int W>
 inline constexpr bool gives_influence =
     sizeof(typename P::Influence) / sizeof(double) == Sum<Pass::influence, W, P, Q, Law>::components;
@@ -30,8 +30,8 @@ struct PrintedText {
   }
 };
 
-/// Compiles law(p, ...) for packs of particles, as the first of all its uses: if that fails, the compiler's first lines
-/// print the hint.
+/// Compiles law(p, ...) for packs of particles before any other use. If that fails, the compiler's first lines contain
+/// the hint.
 template <PrintedText hint, class Law, class... Particles>
 constexpr bool compiles_for_packs() {
   return requires(Law const& law, rebind_t<Particles, Pack<double>> const&... particles) { law(particles...); };

@@ -1,4 +1,4 @@
-// The pair scheme without any physics: which kernel runs over which rows.
+// The pair scheme without physics: selects kernels and the rows that they traverse.
 #include <boltzmann/core/exact_sum.hpp>
 #include <boltzmann/schemes/pair/pair_scheme_laws.hpp>
 
@@ -10,7 +10,7 @@
 namespace boltzmann {
 namespace {
 
-// Below, one thread is faster than the start of two (some us, and some 50 if the others have gone to sleep).
+// Below this work, one thread is faster than starting two (some us, and about 50 if the others sleep).
 constexpr double pair_work = 0.125;
 
 }  // namespace
@@ -61,8 +61,8 @@ void PairScheme::divide(Division* division) {
   neighbourhood_.divide(division, threads());
 }
 
-/// Of other ranks, before influences are calculated: those near to this one's, by the lists; of ensembles that act
-/// without lists all.
+/// Exchanges rows before influences are calculated: those near this rank's particles, by the lists; for ensembles with
+/// laws without lists, all rows.
 void PairScheme::find_rows() {
   if (division_ && reads_all_) division_->make_whole();
   neighbourhood_.refresh(threads());
@@ -73,7 +73,7 @@ void PairScheme::bring_particles() {
   brought_ = true;
 }
 
-/// The targets of a law that belong to this rank, by ranges.
+/// Calls the kernel for the targets of a law that belong to this rank, by ranges.
 template <class Kernel>
 void PairScheme::over_targets(Near const& near, PairTask const& task, std::size_t pairs, int threads,
                               Kernel const& kernel) const {
@@ -88,12 +88,12 @@ void PairScheme::over_targets(Near const& near, PairTask const& task, std::size_
 void PairScheme::calculate(double time, bool overwrite) {
   ++calculations_;
   if (!std::exchange(brought_, false)) find_rows();
-  // The first law on an ensemble stores, further ones add.
+  // The first law on an ensemble stores its influence, later ones add.
   std::vector<AnyEnsemble*> clear;
   if (overwrite) clear = ensembles();
   for (auto const& external : external_)
     if (external->traits.rates) external->store = overwrite && only_rates(*external->ensemble) != nullptr;
-  // On particles with rates laws only add.
+  // On particles with rates, laws only add.
   std::erase_if(clear, [this](AnyEnsemble* ensemble) {
     if (!ensemble->driven().empty()) clear_driven(*ensemble);
     return !ensemble->driven().empty();
@@ -113,7 +113,7 @@ void PairScheme::calculate(double time, bool overwrite) {
   }
 }
 
-/// Adds what a law gives to its targets, or stores it if `overwrite`. Rows and lists are up to date.
+/// Adds the influence of a law to its targets, or stores it if `overwrite`. Rows and lists must be up to date.
 void PairScheme::apply(Near& near, bool overwrite) {
   near.locate(quantum_, neighbourhood_);
   if (near.factor != 1) near.whole_instead();
@@ -143,7 +143,7 @@ void PairScheme::apply(Connected const& connected) {
       [&](std::size_t begin, std::size_t end) { connected.kernels.connected(connected.law.get(), task, begin, end); });
 }
 
-/// The program that alone says all rates of an ensemble's fields; null: laws add to them.
+/// The program that alone gives all rates of an ensemble's fields; null: laws add to them.
 PairScheme::External* PairScheme::only_rates(AnyEnsemble const& ensemble) const {
   auto const adds = [&](AnyEnsemble const* target, LawTraits const& traits) {
     return target == &ensemble && !traits.moves() && !traits.rates &&
@@ -170,7 +170,7 @@ RateSource* PairScheme::rate_source(AnyEnsemble const& ensemble) {
   return &rates->source;
 }
 
-/// Influences and what is added to in rates become zero.
+/// Sets influences, and rates to which laws add, to zero.
 void PairScheme::clear_driven(AnyEnsemble& ensemble) const {
   if (!only_rates(ensemble)) return ensemble.clear_influence();
   std::fill_n(ensemble.influence(0), ensemble.size() * ensemble.influence_size(), 0.0);
@@ -196,11 +196,11 @@ Scheme::SmallSystem PairScheme::small_system() {
           &only};
 }
 
-/// Adds a law's to those of its targets.
+/// Adds a law's energies and virials to those of its targets.
 void PairScheme::measure(Near& near, std::vector<double>& energies, std::vector<double>& virials) {
   near.locate(0, neighbourhood_);
   near.task.zero_at = shifted_ && !near.all_pairs() ? near.cutoff : 0;
-  std::vector<double> other_energies, other_virials;  // while a part of these is measured
+  std::vector<double> other_energies, other_virials;  // used while a part is measured
   if (near.factor != 1) {
     other_energies.resize(energies.size());
     other_virials.resize(virials.size());
@@ -217,7 +217,8 @@ void PairScheme::measure(Near& near, std::vector<double>& energies, std::vector<
   for (std::size_t i = 0; i < other_virials.size(); ++i) virials[i] = other_virials[i] + near.factor * virials[i];
 }
 
-/// From what is known of particles; where sums suffice, of those of this rank, and nothing of a particle alone is left.
+/// Sums the measures of particles. If global sums suffice, sums only this rank's particles, and clears the measures per
+/// particle.
 void PairScheme::add_up(EnergyAndVirial& measures, std::vector<std::vector<double>> const& field, bool pairs) {
   bool const sums_suffice = division_ && division_->sums_suffice();
   std::array<ExactSum, 9> virials;
@@ -283,7 +284,7 @@ EnergyAndVirial PairScheme::measure(double time, bool zeros) {
     auto const of = number(connected->ensemble);
     connected->measure(box(), measures.per_particle[of].data(), virial[of].data(), threads());
   }
-  // Energies may depend on what changes by a rate of its own.
+  // Energies may depend on fields with a rate of their own.
   for (auto const* ensemble : all) measures.driven = measures.driven || !ensemble->driven().empty();
   for (auto const& external : external_) {
     if (!external->traits.moves()) continue;
@@ -300,7 +301,7 @@ EnergyAndVirial PairScheme::measure(double time, bool zeros) {
   return measures;
 }
 
-/// What each rank has found of its particles, on all of them.
+/// Gathers the measures of each rank's particles on all ranks.
 void PairScheme::gather_measures(EnergyAndVirial& measures, std::vector<std::vector<double>>& field) {
   division_->team().meet(Team::Occasion::gathers);
   for (std::size_t e = 0; e < ensembles().size(); ++e) {

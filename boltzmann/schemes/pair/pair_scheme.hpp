@@ -27,13 +27,13 @@ inline constexpr double no_cutoff = std::numeric_limits<double>::infinity();
 
 class PairScheme final : public Scheme, private VelocityInfluences {
  public:
-  /// `cutoff`: the distance beyond which influences are taken as zero, for laws that don't say otherwise. Error if it
-  /// is not positive or longer than a periodic axis. Without a cut-off all pairs are summed; periodic axes then have no
-  /// finite sum and are refused.
+  /// `cutoff`: the distance beyond which influences are taken as zero, for laws without a cut-off of their own. Throws
+  /// Error if it is not positive or longer than a periodic axis. Without a cut-off all pairs are summed; periodic axes
+  /// then have no finite sum and are rejected.
   explicit PairScheme(Box box, double cutoff = no_cutoff);
   ~PairScheme() override;
 
-  /// Influences among the particles of one ensemble.
+  /// Adds influences among the particles of one ensemble.
   template <class P, class Law>
   requires(!std::same_as<Law, FormulaLaw>) void internal(Ensemble<P>& ensemble, Law const& law) {
     internal(ensemble, law, cutoff_);
@@ -46,7 +46,8 @@ class PairScheme final : public Scheme, private VelocityInfluences {
     add_pairs(ensemble, ensemble, near_kernels<P, P, Law>(), keep(law), traits_of(law), cutoff);
   }
 
-  /// Influences between two ensembles: law(p, q) on p in `a` and law(q, p) on q in `b`; a one-way law acts on `a` only.
+  /// Adds influences between two ensembles: law(p, q) on p in `a` and law(q, p) on q in `b`. A one-way law acts on `a`
+  /// only.
   template <class P, class Q, class Law>
   requires(!std::same_as<Law, FormulaLaw>) void between(Ensemble<P>& a, Ensemble<Q>& b, Law const& law) {
     between(a, b, law, cutoff_);
@@ -62,7 +63,7 @@ class PairScheme final : public Scheme, private VelocityInfluences {
       add_pairs(b, a, near_kernels<Q, P, Law>(), kept, traits_of(law), cutoff);
   }
 
-  /// Influences between fixed pairs of one ensemble, over the nearest image on periodic axes.
+  /// Adds influences between fixed pairs of one ensemble, over the nearest image on periodic axes.
   template <class P, class Law>
   requires(!std::same_as<Law, FormulaLaw>) void connect(Ensemble<P>& ensemble,
                                                         std::vector<Connection> const& connections, Law const& law) {
@@ -72,7 +73,7 @@ class PairScheme final : public Scheme, private VelocityInfluences {
     add_connections(ensemble, connections, connection_kernels<P, Law>(), keep(law), traits_of(law));
   }
 
-  /// An influence from outside, law(p) or law(p, time), on all particles of an ensemble or on the chosen ones.
+  /// Adds an external influence, law(p) or law(p, time), on all particles of an ensemble or on the selected ones.
   template <class P, class Law>
   requires(!std::same_as<Law, FormulaLaw>) void external(Ensemble<P>& ensemble, Law const& law) {
     static_assert(ExternalLaw<Law, P>, "an external law is a function law(p) or law(p, time) of a particle");
@@ -85,35 +86,35 @@ class PairScheme final : public Scheme, private VelocityInfluences {
     add_external(ensemble, external_kernels<P, Law>(), keep(law), traits_of(law), &only);
   }
 
-  // The same with a law that is a formula, on particles of any class: FormulaPartError if it is wrong.
+  // The same with a law given as a formula, for particles of any class. Throws FormulaPartError if it is invalid.
   void internal(AnyEnsemble& ensemble, FormulaLaw const& law) { internal(ensemble, law, cutoff_); }
   void internal(AnyEnsemble& ensemble, FormulaLaw const& law, double cutoff);
   void between(AnyEnsemble& a, AnyEnsemble& b, FormulaLaw const& law) { between(a, b, law, cutoff_); }
   void between(AnyEnsemble& a, AnyEnsemble& b, FormulaLaw const& law, double cutoff);
-  /// On `target` alone: p is of the target, q of the source.
+  /// Acts on `target` only: p is in the target, q in the source.
   void one_way(AnyEnsemble& target, AnyEnsemble& source, FormulaLaw const& law) {
     one_way(target, source, law, cutoff_);
   }
   void one_way(AnyEnsemble& target, AnyEnsemble& source, FormulaLaw const& law, double cutoff);
   void connect(AnyEnsemble& ensemble, std::vector<Connection> const& connections, FormulaLaw const& law);
   void external(AnyEnsemble& ensemble, FormulaLaw const& law, std::vector<std::uint32_t> const* only = nullptr);
-  /// The rates of fields (AnyEnsemble::driven()), and how they diffuse: FormulaPartError if one is wrong.
+  /// Adds the rates of fields (AnyEnsemble::driven()) and their diffusion. Throws FormulaPartError if one is invalid.
   void rates(AnyEnsemble& ensemble, FieldRates const& rates);
 
-  /// Of particles that are bonded: laws within this ensemble that are added from now on act between those 1, 2, ... bonds
-  /// apart with these factors; 0 leaves a pair out. None: as between others. Error unless factors are finite. Such a
-  /// law needs a cut-off, and a periodic axis twice as long, so that no second image is near.
+  /// Scaling of laws between bonded particles. Laws within this ensemble that are added from now on act between
+  /// particles 1, 2, ... bonds apart with these factors; 0 excludes a pair. Empty: no scaling. Throws Error unless
+  /// factors are finite. Such a law needs a cut-off, and periodic axes must be twice as long, so that no second image
+  /// is in range.
   void bonded_factors(AnyEnsemble& ensemble, std::vector<BondMembers> const& bonds, std::vector<double> const& factors);
 
-  /// How far particles may move before lists are rebuilt: lists reach cutoff + skin. Default 0.12 of the cut-off,
-  /// longer where few are within it.
+  /// The distance that particles may move before lists are rebuilt; lists have the range cutoff + skin. Default: 0.12
+  /// of the cut-off, longer if few particles are within it.
   void skin(double length) { neighbourhood_.skin(length); }
   double skin() const { return neighbourhood_.skin(); }
-  /// Mirrors and lists, as they stand since the last calculation: for what else acts between near particles.
+  /// Mirrors and lists, as of the last calculation, for other code that acts between near particles.
   Neighbourhood& neighbourhood() { return neighbourhood_; }
-  /// Whether energies of laws with a cut-off are counted from their value there (the default): that is the energy which
-  /// the cut-off forces conserve. Otherwise they are counted as the law has them, and jump whenever a pair crosses the
-  /// cut-off.
+  /// True (the default): energies of laws with a cut-off are counted from their value there, which is the energy that
+  /// the truncated forces conserve. False: energies are those of the law, and jump whenever a pair crosses the cut-off.
   void shifted(bool yes) { shifted_ = yes; }
   double cutoff() const { return cutoff_; }
   /// The pairs connected by connect(), for drawings: (ensemble, i, j), each once.
@@ -122,40 +123,40 @@ class PairScheme final : public Scheme, private VelocityInfluences {
     std::uint32_t i, j;
   };
   std::vector<Bond> bonds() const;
-  /// The vortices that act, and by which law.
+  /// The vortices that act, and their law.
   std::vector<VortexSource> vortices() const override;
-  /// What acts from outside on the first ensemble of those that a flow carries.
+  /// Adds the external influence on the first advected ensemble.
   void add_stream(std::span<double const> places, double time, std::span<double> velocities) override;
 
   void calculate(double time = 0) override;
   void add_influences(double time) override;
-  /// Nothing if a law reads what is not in it (a lambda that captures): that may change unseen.
+  /// Nothing if a law may read data outside of it (a lambda with captures), which can change unnoticed.
   std::optional<std::uint64_t> revision() const override;
-  /// Fields that are sums, as laws have given them at the last calculation.
+  /// Updates fields that are sums, as laws have given them at the last calculation.
   void complete(double time) override;
   bool derives(AnyEnsemble const& ensemble, Field const& field) const override;
   SmallSystem small_system() override;
   EnergyAndVirial measure(double time = 0) override { return measure(time, true); }
-  /// `zeros`: where no pair acts, virial_per_particle has zeros; else it is empty then.
+  /// `zeros`: if no pair acts, virial_per_particle contains zeros; otherwise it is empty then.
   EnergyAndVirial measure(double time, bool zeros);
   std::vector<Rotation> rotations(AnyEnsemble const& ensemble, bool taken) override;
   RateSource* rate_source(AnyEnsemble const& ensemble) override;
   bool velocity_dependent(AnyEnsemble const& ensemble) const override;
-  /// Finds C++ laws that read velocities without declaring it, by trying them on particles as they are now.
+  /// Detects C++ laws that read velocities without declaring it, by trials on the current particles.
   VelocityInfluences* velocity_influences() override;
   bool follows_box() const override { return true; }
-  /// Lists are built anew. PhysicsFailure if a cut-off is longer than a periodic axis now.
+  /// Invalidates the lists. Throws PhysicsFailure if a cut-off is now longer than a periodic axis.
   void box_changed() override;
-  /// Of pairs without cut-offs in open space, on which nothing acts from outside.
+  /// For pairs without cut-offs in open space, without external influences.
   bool translation_invariant() const override;
   double length_scale(AnyEnsemble const& ensemble) const override;
   std::string explain(AnyEnsemble const& ensemble, std::size_t i) const override;
-  /// A line, if two particles overlap: a law with a hard core gives them so much energy that one step of this size would
-  /// move them by a good part of their distance. On a lattice the forces of such neighbours cancel.
+  /// A line if two particles overlap, else empty. They overlap if the energy of a hard core would move them in one such
+  /// step by a good part of their distance. On a lattice the forces of such neighbours cancel.
   std::string overlap(double step_size);
-  /// True if equal particles of this ensemble are acted on equally, wherever they are: by nothing but uniform fields.
+  /// True if equal particles of this ensemble feel equal external influences at all places: only uniform fields act.
   bool acts_uniformly(AnyEnsemble const& ensemble) const;
-  /// Adds the influence of such fields (but for those that an integrator has taken) on one row of the ensemble.
+  /// Adds the influence of such fields (except those that an integrator has taken) on one row of the ensemble.
   void add_outside(AnyEnsemble const& ensemble, double const* row, double time, double* influence) const;
   void make_reversible(double quantum) override;
   std::string undivided() const override;
@@ -165,32 +166,32 @@ class PairScheme final : public Scheme, private VelocityInfluences {
   void bring_particles() override;
   void divide(Division* division) override;
   std::size_t bytes() const override;
-  /// Warns of steps in which particles that meet move further than a quarter of the length over which the law between
-  /// them changes: collisions would not be followed.
+  /// Warns of steps in which particles on a collision course move further than a quarter of the length over which the
+  /// law between them changes: such steps do not resolve collisions.
   double collision_step() const override;
   std::vector<std::string> warnings(double step_size) override;
   std::string report() const override;
   std::vector<double> state() const override;
   void restore(std::span<double const> state) override;
 
-  // For code that knows classes only at run time (scenarios): the same as the members above, with the kernels already
-  // chosen.
+  // For code that selects classes at run time (scenarios): the same as the members above, with kernels already
+  // selected.
   struct LawTraits {
     double length_scale = no_cutoff;
     bool velocity_dependent = false;
-    bool one_way = false;  ///< who is influenced does not influence in return
-    bool uniform = false;  ///< an external law that acts on equal particles equally, wherever they are
-    std::optional<VortexLaw> vortices = {};  ///< the law of Biot and Savart that it is
+    bool one_way = false;                    ///< targets do not influence the sources
+    bool uniform = false;                    ///< an external law that acts equally on equal particles at all places
+    std::optional<VortexLaw> vortices = {};  ///< the law of Biot and Savart, if it is one
     int changes = -1;  ///< the driven field of the target whose rate it gives; -1: it moves particles
 
-    bool reads_outside = false;  ///< what it depends on may not all be in it
-    bool rates = false;          ///< it gives those of all driven fields; sums must be known before
+    bool reads_outside = false;  ///< it may depend on data outside of it
+    bool rates = false;          ///< it gives the rates of all driven fields; sums must be known before
 
     bool moves() const { return changes < 0; }
     /// True if it is a force (or another influence) that depends on velocities.
     bool pushes_by_velocity() const { return velocity_dependent && moves() && !rates; }
-    std::shared_ptr<PairNumbers const> typed = {};  ///< a formula, which is sampled to know its length
-    bool positions_alone = false;                   ///< it reads no other fields of particles
+    std::shared_ptr<PairNumbers const> typed = {};  ///< a formula, which is sampled to find its length
+    bool positions_alone = false;                   ///< it reads no fields of particles but the position
   };
   template <class Law>
   static LawTraits traits_of(Law const& law) {
@@ -205,7 +206,7 @@ class PairScheme final : public Scheme, private VelocityInfluences {
             {},
             reads_positions_alone<Law>()};
   }
-  /// A law says so by `static constexpr bool positions_alone = true`.
+  /// A law declares this by `static constexpr bool positions_alone = true`.
   template <class Law>
   static constexpr bool reads_positions_alone() {
     if constexpr (requires { Law::positions_alone; })
@@ -213,7 +214,7 @@ class PairScheme final : public Scheme, private VelocityInfluences {
     else
       return false;
   }
-  /// A struct has its numbers in it; what else has data may have captured them by reference.
+  /// An empty class or a plain struct contains all its data; another law may have captured references.
   template <class Law>
   static constexpr bool reads_outside() {
     return !std::is_empty_v<Law> && !std::is_aggregate_v<Law>;
@@ -232,7 +233,7 @@ class PairScheme final : public Scheme, private VelocityInfluences {
                        LawPointer law, LawTraits traits);
   void add_external(AnyEnsemble& ensemble, ExternalKernels kernels, LawPointer law, LawTraits traits,
                     std::vector<std::uint32_t> const* only);
-  /// How many external influences there are, and another law of the same type in place of one of them, by number.
+  /// The number of external influences; replaces one of them, by number, with another law of the same type.
   std::size_t externals() const { return external_.size(); }
   void replace_external(std::size_t number, LawPointer law, LawTraits traits);
   template <class Law>
@@ -255,7 +256,7 @@ class PairScheme final : public Scheme, private VelocityInfluences {
   void separate(std::vector<AnyEnsemble const*> from_outside, bool between) override;
   void add_from_outside(AnyEnsemble const& ensemble, OutsideTask const& task) const override;
   void add_between() override;
-  /// True if add_influences() calculates this law between particles, or these from outside.
+  /// True if add_influences() calculates this law between particles, or these external laws.
   bool calculated(LawTraits const& traits) const { return !(separate_between_ && traits.pushes_by_velocity()); }
   bool calculated(External const& external) const;
 
@@ -280,16 +281,16 @@ class PairScheme final : public Scheme, private VelocityInfluences {
   double quantum_ = 0;
   bool shifted_ = true;
   std::size_t calculations_ = 0;
-  Division* division_ = nullptr;   // while a run is divided
-  bool reads_all_ = false;         // of what other ranks own
-  bool brought_ = false;           // for the calculation that comes
-  bool separate_between_ = false;  // add_influences() leaves these out, and
+  Division* division_ = nullptr;   // set during a divided run
+  bool reads_all_ = false;         // of other ranks' particles
+  bool brought_ = false;           // rows were exchanged for the next calculation
+  bool separate_between_ = false;  // laws that add_influences() omits
   std::vector<AnyEnsemble const*> separate_outside_;
   Neighbourhood neighbourhood_;
   std::vector<std::unique_ptr<Near>> near_;
   std::vector<std::unique_ptr<Connected>> connected_;
   std::vector<std::unique_ptr<External>> external_;
-  std::vector<std::unique_ptr<BondedPairs>> bonded_;  // with factors of their own
+  std::vector<std::unique_ptr<BondedPairs>> bonded_;  // with scaling factors
 };
 
 }  // namespace boltzmann

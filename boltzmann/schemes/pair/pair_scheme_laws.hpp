@@ -1,4 +1,4 @@
-// The laws of a pair scheme: what it keeps of each, and the tasks that their kernels get. Private to pair_scheme*.cpp.
+// The laws of a pair scheme: their data, and the tasks for their kernels. Private to pair_scheme*.cpp.
 #pragma once
 
 #include <boltzmann/boundaries/flow_images.hpp>
@@ -15,18 +15,19 @@
 namespace boltzmann {
 namespace pairs {
 
-inline constexpr std::size_t particle_grain = 256;     // particles of one range of a list
-inline constexpr std::size_t pairs_grain = 1U << 17U;  // pairs of one range of all pairs
-inline constexpr double collision_part = 0.25;         // of a law's length, that particles may come closer in a step
+inline constexpr std::size_t particle_grain = 256;     // particles per range of a list
+inline constexpr std::size_t pairs_grain = 1U << 17U;  // pairs per range of all pairs
+inline constexpr double collision_part = 0.25;         // greatest approach in a step, relative to a law's length
 
-/// Where what a law gives to particles is summed up.
+/// The array that sums what a law gives to particles.
 inline double* sum_of(AnyEnsemble& ensemble, PairScheme::LawTraits const& traits) {
   return traits.moves() ? ensemble.influence(0) : ensemble.rate(static_cast<std::size_t>(traits.changes));
 }
 inline std::size_t numbers_of(AnyEnsemble const& ensemble, PairScheme::LawTraits const& traits) {
   return ensemble.size() * (traits.moves() ? ensemble.influence_size() : ensemble.rate_stride());
 }
-/// Error unless influences beyond the walls of mirror axes are those of the images of a flow, as many as there are.
+/// Throws Error unless influences beyond the walls of mirror axes are those of the images of a flow, and their number
+/// is right.
 void check_walls(Box const& box, AnyEnsemble const& target, AnyEnsemble const& source, double cutoff);
 
 }  // namespace pairs
@@ -37,17 +38,17 @@ struct PairScheme::Near {
   LawPointer law;
   LawTraits traits;
   double cutoff;
-  std::size_t list = 0;   // its number in the neighbourhood, if there is a cut-off
+  std::size_t list = 0;   // index in the neighbourhood, if there is a cut-off
   std::size_t pairs = 0;  // at the last locate()
   PairTask task, overwriting;
-  PairKernel few = nullptr;        // the kernel for a handful of particles, if they are
-  std::vector<double> images;      // rows of those beyond walls
-  bool filtered = false;           // some pairs are left out: the first images of those that are bonded
-  double factor = 1;               // of all that the law gives: between some that are bonded
-  std::vector<double> whole = {};  // what it gives before that
+  PairKernel few = nullptr;        // the kernel for few particles, if it applies
+  std::vector<double> images;      // rows of the images beyond walls
+  bool filtered = false;           // some pairs are excluded: the nearest images of bonded pairs
+  double factor = 1;               // scaling factor, between some bonded particles
+  std::vector<double> whole = {};  // the unscaled influence
 
   bool all_pairs() const { return cutoff == no_cutoff; }
-  /// Of a typed law, for the particles as they are now.
+  /// A sample of a typed law, for the current particles.
   LawSample sample(Box const& box) const {
     if (!traits.typed) return {};
     double diagonal = 0, volume = 1;
@@ -74,7 +75,7 @@ struct PairScheme::Near {
     return speed > 0 ? pairs::collision_part * length / speed : no_cutoff;
   }
 
-  /// Sets the task to where memory is now (ensembles may have been resized, sorted copies rebuilt).
+  /// Updates the pointers of the task (ensembles may have been resized, sorted copies rebuilt).
   void locate(double quantum, Neighbourhood const& neighbourhood) {
     task.influence = pairs::sum_of(*target, traits);
     if (all_pairs()) {
@@ -102,7 +103,7 @@ struct PairScheme::Near {
     }
     few = all_pairs() && task.same && task.targets <= small_system_particles ? kernels.few : nullptr;
   }
-  /// What acts from beyond the walls, as they are now.
+  /// The task for images beyond the walls in their current positions.
   PairTask task_of_images(Box const& box) {
     auto const turns = flow_images(box);
     find_flow_images(*source, box, turns, images);
@@ -112,7 +113,7 @@ struct PairScheme::Near {
     beyond.same = beyond.overwrite = false;
     return beyond;
   }
-  /// Lets the kernel store what the law gives, for add_part() to add.
+  /// Makes the kernel store the unscaled influence, which add_part() then adds.
   void whole_instead() {
     whole.resize(pairs::numbers_of(*target, traits));
     task.influence = whole.data();
@@ -122,7 +123,7 @@ struct PairScheme::Near {
     for (std::size_t k = 0; k < whole.size(); ++k) sum[k] += factor * whole[k];
   }
   std::size_t grain() const {
-    // Of all pairs, whole blocks of targets: kernels take up to 16 together.
+    // For all pairs, whole blocks of targets: kernels process up to 16 together.
     return all_pairs() ? std::max<std::size_t>(64, pairs::pairs_grain / (source->size() + 1) / 64 * 64)
                        : pairs::particle_grain;
   }
@@ -167,12 +168,12 @@ struct PairScheme::External {
   LawTraits traits;
   bool everyone = true;
   std::vector<std::uint32_t> only;
-  std::size_t last = 0;  // the largest number in it
+  std::size_t last = 0;  // the largest particle number in it
   bool taken = false;    // by an integrator, as a rotation
-  bool store = false;    // rates that nothing else adds to
+  bool store = false;    // rates to which no other law adds
   double time = 0;       // of the last calculation
 
-  /// Rates, for an integrator.
+  /// The rates, for an integrator.
   class Rates final : public RateSource {
    public:
     explicit Rates(External const& of) : of_(of) {}
@@ -188,13 +189,13 @@ struct PairScheme::External {
     External const& of_;
   } source{*this};
 
-  /// Adds its influence at this time to those that are there.
+  /// Adds its influence at this time to the present ones.
   void add(double time, int threads) const {
     ExternalTask const now = task(time);
     if (taken) return;
     over_share(threads, [&](std::size_t begin, std::size_t end) { kernels.influence(law.get(), now, begin, end); });
   }
-  /// Rates that the last calculation has left to an integrator stand in the ensemble, and belong to its influences.
+  /// Computes rates that the last calculation has left to an integrator, and stores them in the ensemble.
   void bring_rates(int threads) {
     if (source.left()) add(time, threads);
     source.take(false);
@@ -202,7 +203,8 @@ struct PairScheme::External {
   }
 
   std::size_t count() const { return everyone ? ensemble->size() : only.size(); }
-  /// Calls function(begin, end) for all on whom it acts, of this rank; of chosen ones, by their place among these, for all.
+  /// Calls function(begin, end) for the particles of this rank on which it acts; for selected ones, with indices in the
+  /// selection, of all ranks.
   template <class Function>
   void over_share(int threads, Function const& function) const {
     if (everyone)
@@ -210,7 +212,8 @@ struct PairScheme::External {
     else
       for_ranges(count(), 8 * pairs::particle_grain, threads_for(count(), 1, threads), function);
   }
-  /// Whether it may change the energy: who comes back at the other end of a periodic axis has gained that of a field.
+  /// True if it may change the energy: a particle that crosses the end of a periodic axis has gained energy from a
+  /// field.
   bool drives(Box const& box) const {
     return box.any_periodic() || kernels.depends_on_time || (traits.velocity_dependent && !kernels.rotate);
   }
@@ -239,7 +242,7 @@ struct PairScheme::External {
   }
 };
 
-/// Pairs that laws treat apart from others, and the factor of each kind of them.
+/// Pairs that laws treat separately, and the factor of each kind.
 struct PairScheme::BondedPairs {
   AnyEnsemble* ensemble;
   PairFilter apart;

@@ -11,9 +11,9 @@
 namespace boltzmann {
 namespace {
 
-constexpr double hard = 4;              // the least power of the distance by which the energy of a hard core falls
-constexpr double part_thrown = 0.25;    // of the distance of two particles, by which a step may move them
-constexpr std::size_t distances = 100;  // at which a law is looked at
+constexpr double hard = 4;              // least exponent of the distance in the energy of a hard core
+constexpr double part_thrown = 0.25;    // greatest displacement in a step, relative to the distance of two particles
+constexpr std::size_t distances = 100;  // number of sampled distances of a law
 
 /// The inverse of the mass that a force moves.
 double inverse_mass(AnyEnsemble const& ensemble, std::size_t i) {
@@ -30,13 +30,13 @@ bool left_out(PairFilter const& filter, std::size_t i, std::size_t j) {
                             static_cast<std::uint32_t>(j));
 }
 
-/// Two particles under a law, at any distance on their line.
+/// Two particles with a law, at any distance along their line.
 struct OnePair {
   PairTask task;
   PairKernel kernel;
   void const* law;
   int dimension;
-  AlignedVector<double> p, q;     // rows, as kernels want them
+  AlignedVector<double> p, q;     // rows in the layout of kernels
   std::array<double, 3> apart{};  // from q to p
   double distance = 0;
 
@@ -52,7 +52,7 @@ struct OnePair {
     return 2 * energy;
   }
 
-  /// What they lose on their way to where they have least within `reach`; 0 if the law is no hard core where they are.
+  /// The energy released on the way to the minimum within `reach`; 0 if the law has no hard core at their distance.
   double released(double reach) {
     double const start = energy(distance);
     double least = start;
@@ -63,7 +63,7 @@ struct OnePair {
   }
 };
 
-/// The particle that has most energy for its mass.
+/// The particle with the highest energy per mass.
 std::size_t most_energetic(AnyEnsemble const& ensemble, std::vector<double> const& energies) {
   double most = 0;
   std::size_t found = ensemble.size();

@@ -1,4 +1,4 @@
-// Which laws a pair scheme has, and whether they go with its box.
+// Adds laws to a pair scheme, and checks that they are compatible with its box.
 #include <boltzmann/schemes/pair/pair_scheme_laws.hpp>
 
 #include <fmt/format.h>
@@ -9,13 +9,13 @@
 namespace boltzmann {
 namespace {
 
-/// Whether these carry each other by a flow that vortices make.
+/// True if the law is a flow of vortices between these ensembles.
 bool is_flow(AnyEnsemble const& target, AnyEnsemble const& source) {
   Field const* vorticity = source.find_field("vorticity");
   return vorticity && is_vorticity(*vorticity, source.dimension()) && !target.find_field("velocity");
 }
 
-/// A filter of these pairs of so many particles.
+/// A filter of these pairs, for this number of particles.
 PairFilter filter_of(std::vector<BondMembers> const& pairs, std::size_t size, bool only) {
   std::vector<std::vector<std::uint32_t>> partners(size);
   for (auto const& [i, j] : pairs) {
@@ -31,7 +31,7 @@ PairFilter filter_of(std::vector<BondMembers> const& pairs, std::size_t size, bo
   return filter;
 }
 
-/// A second image of who is bonded must not be near: it would be taken for the first.
+/// No second image of a bonded particle may be in range, because it would be treated as the first.
 void check_images_of_bonded(Box const& box, double cutoff) {
   for (int a = 0; a < box.dimension(); ++a)
     if (box.periodic(a) && box.length(a) < 2 * cutoff)

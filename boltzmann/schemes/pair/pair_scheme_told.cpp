@@ -1,4 +1,4 @@
-// What a pair scheme tells integrators and users of its laws.
+// Properties of its laws that a pair scheme reports to integrators and users.
 #include <boltzmann/particles/tracer.hpp>
 #include <boltzmann/schemes/pair/pair_scheme_laws.hpp>
 #include <boltzmann/schemes/vortices/vortex_source.hpp>
@@ -127,7 +127,7 @@ std::vector<std::string> PairScheme::warnings(double step_size) {
       return &other < &near && other->target == near->source && other->source == near->target;
     });
     if (near->traits.typed && !said) warn_of_typed(*near, lines);
-    double const longest = said ? no_cutoff : near->collision_step(box());  // said: the other way round
+    double const longest = said ? no_cutoff : near->collision_step(box());  // if reported already, invert the test
     if (!(dt > longest)) continue;
     double const length = near->length_scale(box()), speed = pairs::collision_part * length / longest;
     lines.push_back(fmt::format(
@@ -140,7 +140,7 @@ std::vector<std::string> PairScheme::warnings(double step_size) {
   return lines;
 }
 
-/// A typed law that is no number somewhere, or has a force left at the cut-off.
+/// Warns of a typed law that is not finite at some distance, or has a nonzero force at the cut-off.
 void PairScheme::warn_of_typed(Near const& near, std::vector<std::string>& lines) const {
   auto const length = [&](double number) { return spoken_units().text(number, dimensions::length, 3); };
   auto const sample = near.sample(box());

@@ -1,4 +1,4 @@
-// What a law returns, summed over the neighbours of one particle.
+// Sums what a law returns over the neighbours of one particle.
 #pragma once
 
 #include <boltzmann/core/pack.hpp>
@@ -38,12 +38,12 @@ template <class Real, class Struct>
 /// with_energy: influence and energy in one sum.
 enum class Pass { influence, reversible, measure, with_energy };
 
-/// A law inside a loop: plain parameters are copied, so that they stay in registers; tables are referred to.
+/// A law inside a loop. Plain parameters are copied, so that they stay in registers; tables are referenced.
 template <class Law>
 using Held = std::conditional_t<std::is_trivially_copyable_v<Law>, Law const, Law const&>;
 
-/// A law may be compiled for a class P and run on all longer ones that begin like it: it says so by `static constexpr
-/// bool on_longer_rows = true`.
+/// A law may be compiled for a class P and run on all longer classes that begin like it. It declares this by `static
+/// constexpr bool on_longer_rows = true`.
 template <class Law>
 constexpr bool runs_on_longer_rows() {
   if constexpr (requires { Law::on_longer_rows; })
@@ -52,13 +52,13 @@ constexpr bool runs_on_longer_rows() {
     return false;
 }
 
-/// Doubles from one row to the next: those of P, or what the task says.
+/// The stride of rows in doubles: that of P, or that of the task.
 template <class P, class Law>
 [[gnu::always_inline]] constexpr std::size_t stride_of([[maybe_unused]] std::size_t given) {
   return runs_on_longer_rows<Law>() ? given : row_stride<P>;
 }
 
-/// The particle that a row begins with.
+/// The particle at the beginning of a row.
 template <class P>
 [[gnu::always_inline]] inline P const& particle_at(double const* row) {
   return *reinterpret_cast<Row<P> const*>(row);
@@ -129,7 +129,7 @@ class Sum {
   }
 
  private:
-  /// A vector of this length along r; along x where two particles are at one place.
+  /// A vector of this length along r; along x if two particles are coincident.
   [[gnu::always_inline]] static Vector<D, Real> at_distance(double length, Vector<D, Real> const& r) {
     Real const square = dot(r, r);
     Vector<D, Real> stretched = r * (length * rsqrt(square));

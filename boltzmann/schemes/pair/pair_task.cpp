@@ -1,4 +1,4 @@
-// The images that kernels of connections and tuples look for.
+// Periodic images for the kernels of connections and tuples.
 #include <boltzmann/boundaries/box.hpp>
 #include <boltzmann/particles/ensemble.hpp>
 #include <boltzmann/schemes/pair/pair_task.hpp>

@@ -9,7 +9,8 @@
 namespace boltzmann {
 namespace detail {
 
-/// Numbers `first` to `first + count` of a block of rows become columns; the last pack is filled up with the first particle.
+/// Copies numbers `first` to `first + count` of a block of rows into columns. The last pack is padded with the first
+/// particle.
 template <int W, std::size_t first, std::size_t count>
 void gather_rows(double const* rows, std::size_t stride, std::size_t particles, double* const* to) {
   auto const pack = [&](std::size_t k, auto const& row) __attribute__((always_inline)) {
@@ -31,7 +32,7 @@ template <int W>
 inline constexpr auto gather_rows_of = for_stretches_of_a_block(
     []<std::size_t first, std::size_t count>() -> GatherRows<W> { return gather_rows<W, first, count>; });
 
-/// Fields of `count` particles become columns, block by block of their rows.
+/// Copies fields of `count` particles into columns, block by block of their rows.
 template <int W>
 void gather_fields(Workspace<W>& work, std::vector<int> const& fields, double const* rows, std::size_t stride,
                    std::size_t count) {
@@ -48,7 +49,7 @@ void gather_fields(Workspace<W>& work, std::vector<int> const& fields, double co
   }
 }
 
-/// Numbers, `step` (1 or 0) apart, are added to the rates of `count` particles, or are them.
+/// Adds numbers, `step` (1 or 0) apart, to the rates of `count` particles, or stores them.
 template <int W, bool adds>
 void put_rates(double* rate, std::size_t stride, std::size_t count, double const* numbers, std::size_t step) {
   std::size_t k = 0, n = 0;
@@ -60,7 +61,7 @@ void put_rates(double* rate, std::size_t stride, std::size_t count, double const
   for (; k < count; ++k, n += step) rate[k * stride] = (adds ? rate[k * stride] : 0.0) + numbers[n];
 }
 
-/// Particles become columns a block at a time; what the program gives is added to the rates, or is them.
+/// Copies particles into columns a block at a time. The results of the program are added to the rates, or stored.
 template <int W, int D>
 void rates_over_particles(void const* the_law, ExternalTask const& task, std::size_t begin, std::size_t end) {
   auto const& law = *static_cast<RateProgram const*>(the_law);
@@ -84,7 +85,7 @@ void rates_over_particles(void const* the_law, ExternalTask const& task, std::si
       double const* const result = work.place(operand);
       double* const rate = task.rates.of(law.results[r].rate, law.results[r].component, from - task.first);
       auto const put =
-          task.store ? put_rates<W, false> : put_rates<W, true>;  // a zero that is added to may be negative
+          task.store ? put_rates<W, false> : put_rates<W, true>;  // adding to zero would lose the sign of -0
       put(rate, task.rates.particle, count, result, operand.scalar ? 0 : 1);
     }
   }

@@ -1,4 +1,4 @@
-// The kernels of rates of fields: what they are given, and the table of them.
+// The kernels of rates of fields: their arguments and their table.
 #pragma once
 
 #include <boltzmann/core/instruction_set.hpp>
@@ -7,7 +7,7 @@
 
 namespace boltzmann {
 
-/// By dimension, from 1; laws are a RateProgram.
+/// By dimension, from 1; the law is a RateProgram.
 struct RateKernelTable {
   ExternalKernel rates[3];
 };

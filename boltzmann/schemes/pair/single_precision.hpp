@@ -1,5 +1,5 @@
-// Sums over all pairs in single precision, for programs: vortices carry each other twice as fast, to some 1e-6 of what
-// is felt.
+// Sums over all pairs in single precision, for programs. Vortices are twice as fast, to a relative accuracy of about
+// 1e-6.
 //
 //   add_in_single_precision(scheme, vortices, vortices, BiotSavart{});
 #pragma once
@@ -12,7 +12,7 @@
 
 namespace boltzmann {
 
-/// The kernels of a law with that of all pairs in single precision.
+/// The kernels of a law; that of all pairs is in single precision.
 template <int W, class P, class Q, class Law>
 constexpr PairKernels in_single_precision(PairKernels kernels) {
   static_assert(!std::is_base_of_v<GaussianBiotSavart, Law>,
@@ -22,9 +22,9 @@ constexpr PairKernels in_single_precision(PairKernels kernels) {
   return kernels;
 }
 
-/// The influence law(p, q) of all q in `source` (which may be the target) on each p in `target`, without a cut-off, like
-/// PairScheme::internal and, one way, between. Distances are differences of places relative to a target nearby, and sums
-/// of 256 are added up in double precision. Inverses of squares end at 1e38: nobody may be further than 1e18 from others.
+/// The influence law(p, q) of all q in `source` (which may be the target) on each p in `target`, without a cut-off,
+/// like PairScheme::internal and, one way, between. Distances are differences of positions relative to a nearby target,
+/// and sums of 256 are added up in double precision. Inverse squares are limited to 1e38: no distance may exceed 1e18.
 template <class P, class Q, class Law>
 void add_in_single_precision(PairScheme& scheme, Ensemble<P>& target, Ensemble<Q>& source, Law const& law) {
   scheme.add_pairs(target, source, in_single_precision<native_width<double>, P, Q, Law>(near_kernels<P, Q, Law>()),

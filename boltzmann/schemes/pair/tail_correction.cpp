@@ -1,4 +1,4 @@
-// Integrals of energies and virials beyond the cut-off, by Gauss and Legendre's rule.
+// Integrals of energies and virials beyond the cut-off, by Gauss-Legendre quadrature.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/laws/pair_numbers.hpp>
 #include <boltzmann/schemes/pair/tail_correction.hpp>
@@ -15,15 +15,15 @@
 namespace boltzmann {
 namespace {
 
-constexpr int most_shells = 60;         // each twice as wide as the one before
-constexpr double largest_ratio = 0.99;  // of one to the one before
+constexpr int most_shells = 60;         // each twice as wide as the previous one
+constexpr double largest_ratio = 0.99;  // of successive shells
 constexpr double negligible = 1e-16;
 constexpr std::size_t most_kinds = 64;
 
-/// What a law reads of a particle.
+/// The numbers of a particle that a law reads.
 using Kind = std::vector<double>;
 
-/// The energy of a pair at a distance.
+/// The energy of a pair as a function of distance.
 class EnergyOfDistance {
  public:
   EnergyOfDistance(FormulaLaw const& law, AnyEnsemble const& a, AnyEnsemble const& b)
@@ -70,7 +70,7 @@ class EnergyOfDistance {
 struct Kinds {
   std::vector<Kind> all;
   std::vector<double> count;
-  std::vector<std::size_t> of;  // each particle
+  std::vector<std::size_t> of;  // the kind of each particle
 
   Kinds(AnyEnsemble const& ensemble, std::vector<int> const& offsets) : of(ensemble.size()) {
     std::map<Kind, std::size_t> numbers;
@@ -92,7 +92,7 @@ struct Kinds {
   }
 };
 
-/// The sphere of radius 1: 2, 2 pi, 4 pi.
+/// The surface of the unit sphere: 2, 2 pi, 4 pi.
 double surface(int dimension) {
   return dimension == 1 ? 2 : dimension == 2 ? 2 * std::numbers::pi : 4 * std::numbers::pi;
 }
@@ -103,7 +103,7 @@ double volume_of(Box const& box) {
   return volume;
 }
 
-/// Gauss and Legendre's, of eight points on each side.
+/// Gauss-Legendre quadrature, eight points on each side.
 double integral(double low, double high, std::function<double(double)> const& f) {
   constexpr std::array<std::array<double, 2>, 8> points{{{0.0950125098376374402, 0.1894506104550684963},
                                                          {0.2816035507792589132, 0.1826034150449235889},
@@ -123,7 +123,7 @@ double integral(double low, double high, std::function<double(double)> const& f)
 
 double integral_beyond(double distance, int dimension, std::function<double(double)> const& energy) {
   double total = 0, shell = 0, ratio = 1;
-  int quiet = 0;  // shells one after the other that add nothing
+  int quiet = 0;  // successive shells without a contribution
   for (int k = 0; k < most_shells; ++k) {
     double const low = std::ldexp(distance, k), before = shell;
     shell = integral(low, 2 * low, [&](double r) { return std::pow(r, dimension - 1) * energy(r); });
@@ -132,7 +132,7 @@ double integral_beyond(double distance, int dimension, std::function<double(doub
     quiet = std::abs(shell) <= negligible * std::abs(total) ? quiet + 1 : 0;
     if (quiet == 3) return surface(dimension) * total;
   }
-  // A power that falls off slowly: the shells behind these are a geometric series.
+  // A slow power law: the remaining shells are a geometric series.
   if (ratio > 0 && ratio < largest_ratio) return surface(dimension) * (total + shell * ratio / (1 - ratio));
   throw Error(fmt::format(
       "its tail has no end: in {}D an energy must fall off faster than 1/r^{}, from the cut-off {} on it does "
@@ -140,9 +140,9 @@ double integral_beyond(double distance, int dimension, std::function<double(doub
       dimension, dimension, distance));
 }
 
-/// Of each particle of `a`, times the density of `b`.
+/// The tail of each particle of `a`, times the density of `b`.
 struct TailCorrection::Tail {
-  std::size_t a, b;  // in ensembles()
+  std::size_t a, b;  // indices in ensembles()
   double cutoff;
   int dimension;
   EnergyOfDistance law;
@@ -199,7 +199,7 @@ EnergyAndVirial TailCorrection::measure(double) {
     measures.virial_per_particle.emplace_back(9 * ensemble->size(), 0.0);
   }
   double const volume = volume_of(box());
-  // Half of what particles of these kinds have with those of the other ensemble.
+  // Adds half of the tail of particles of these kinds with those of the other ensemble.
   auto const give = [&](std::size_t e, Kinds const& kinds, std::vector<Tail::Integrals> const& sums) {
     for (std::size_t i = 0; i < kinds.of.size(); ++i) {
       auto const& [energy, virial] = sums[kinds.of[i]];

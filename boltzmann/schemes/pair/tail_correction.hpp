@@ -1,5 +1,5 @@
-// Tail corrections: what pairs beyond the cut-off would add to energy and virial, if particles stood there as everywhere.
-//
+// Tail corrections: the contributions of pairs beyond the cut-off to energy and virial, for a uniform distribution
+// there.
 //   PairScheme pairs(box, 3);
 //   pairs.shifted(false);                        // energies as the law has them
 //   pairs.internal(atoms, lennard_jones);
@@ -19,18 +19,18 @@
 
 namespace boltzmann {
 
-/// A scheme beside pairs that moves nobody: homogeneous surroundings pull on all sides alike. Beyond the cut-off the pair
-/// distribution is taken as g(r) = 1 (Allen and Tildesley, Computer Simulation of Liquids, section 2.8), in as many
-/// dimensions as the box has.
+/// A scheme beside pairs that exerts no forces, because those of homogeneous surroundings cancel. Beyond the cut-off
+/// the pair distribution is taken as g(r) = 1 (Allen and Tildesley, Computer Simulation of Liquids, section 2.8), in
+/// the dimension of the box.
 class TailCorrection final : public Scheme {
  public:
-  /// Error unless all axes are periodic.
+  /// Throws Error unless all axes are periodic.
   explicit TailCorrection(Box box);
   ~TailCorrection() override;
 
-  /// Of the energy of pairs within an ensemble, and between two. It may know fields of the particles that do not change,
-  /// as long as these make at most 64 kinds of them: each two have an integral of their own. Error if the law is no energy,
-  /// one that knows more, or one that falls off no faster than 1/r^D, whose tail has no end.
+  /// Adds the tail of the energy of pairs within an ensemble, and between two. The law may read constant fields of the
+  /// particles, if there are at most 64 combinations of their values: each two have an integral of their own. Throws
+  /// Error if the law is no energy, reads other fields, or falls off no faster than 1/r^D, so that its tail diverges.
   void internal(AnyEnsemble& ensemble, FormulaLaw const& law, double cutoff) {
     between(ensemble, ensemble, law, cutoff);
   }
@@ -53,7 +53,7 @@ class TailCorrection final : public Scheme {
   std::vector<std::unique_ptr<Tail>> tails_;
 };
 
-/// The integral of u(r) over space beyond a distance, in D dimensions. Error if it has no end.
+/// The integral of u(r) over space beyond a distance, in D dimensions. Throws Error if it diverges.
 double integral_beyond(double distance, int dimension, std::function<double(double)> const& energy);
 
 }  // namespace boltzmann

@@ -1,4 +1,4 @@
-// Laws of a pair scheme that depend on velocities: which they are, and their influences apart from all others.
+// Laws of a pair scheme that depend on velocities: their detection, and their separate calculation.
 #include <boltzmann/core/random.hpp>
 #include <boltzmann/schemes/pair/pair_scheme_laws.hpp>
 
@@ -12,7 +12,7 @@ namespace boltzmann {
 namespace {
 
 constexpr std::size_t trials = 32;
-constexpr std::size_t spare_rows = 64;  // behind the last one: kernels load whole packs
+constexpr std::size_t spare_rows = 64;  // at the end, because kernels load whole packs
 
 /// Copies of rows whose velocities, and other numbers that change in time, can be replaced.
 class TrialRows {
@@ -47,7 +47,7 @@ class TrialRows {
   }
 
  private:
-  struct alignas(32) Block {  // as rows are
+  struct alignas(32) Block {  // aligned as rows are
     double numbers[4];
   };
 
@@ -58,7 +58,7 @@ class TrialRows {
   double scale_ = 1;
 };
 
-/// True if f(influence) gives other numbers once velocities have changed. Numbers that were not finite don't count.
+/// True if f(influence) gives other numbers after a change of velocities. Numbers that were not finite are ignored.
 template <class Evaluate, class Change>
 bool changes(std::size_t numbers, Evaluate const& evaluate, Change const& change) {
   std::vector<double> before(numbers), after(numbers);
@@ -72,7 +72,7 @@ bool changes(std::size_t numbers, Evaluate const& evaluate, Change const& change
 
 Stream trial_numbers(std::uint64_t trial) { return Stream(0, trial, 0, Purpose::velocity); }
 
-/// Whether a kernel of a law from outside gives other influences for other velocities of particles as they are.
+/// True if a kernel of an external law gives other influences for other velocities of the current particles.
 template <class External>
 bool reads_velocities(External const& external) {
   AnyEnsemble const& ensemble = *external.ensemble;
@@ -95,7 +95,7 @@ bool reads_velocities(External const& external) {
   return false;
 }
 
-/// The same between particles within reach of each other: a source is put beside each chosen target.
+/// The same between particles within range of each other: a source is placed beside each selected target.
 template <class Near>
 bool reads_velocities(Near const& near, Box const& box) {
   AnyEnsemble const &target = *near.target, &source = *near.source;
@@ -135,7 +135,7 @@ bool reads_velocities(Near const& near, Box const& box) {
   return false;
 }
 
-/// The same of connected particles.
+/// The same for connected particles.
 template <class Connected>
 bool reads_velocities_of_partners(Connected const& connected, Box const& box) {
   AnyEnsemble const& ensemble = *connected.ensemble;

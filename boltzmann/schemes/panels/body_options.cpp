@@ -1,4 +1,4 @@
-// The members of bodies with their keys.
+// The keys of bodies.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/number.hpp>
 #include <boltzmann/schemes/panels/body_options.hpp>

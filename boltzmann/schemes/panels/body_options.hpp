@@ -1,4 +1,4 @@
-// Body options: what scenarios say of a body in a flow, with its keys.
+// Body options: the keys in scenarios for a body in a flow.
 #pragma once
 
 #include <boltzmann/core/options.hpp>
@@ -32,9 +32,9 @@ struct BodyOptions {
   Appearance appearance;
 };
 OptionTable const& body_options();
-/// The keys that a body of this shape has.
+/// The keys of a body of this shape.
 OptionTable body_options(BodyShape shape);
-/// Of what the options say. Error if it is none.
+/// The outline for these options. Throws Error if they are invalid.
 Outline outline_of(BodyOptions const& options);
 
 }  // namespace boltzmann

@@ -1,4 +1,4 @@
-// Gauss's elimination, by rows.
+// Gaussian elimination, by rows.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/schemes/panels/linear_equations.hpp>
 

@@ -10,8 +10,8 @@ namespace boltzmann {
 class LinearEquations {
  public:
   LinearEquations() = default;
-  /// Takes a matrix of size x size numbers, row after row, and factorises it: L U with the largest pivot of each column
-  /// (G. H. Golub and C. F. Van Loan, Matrix Computations, section 3.4). Error if it is singular to rounding.
+  /// Factorises a matrix of size x size numbers, row after row: L U with the largest pivot of each column (G. H. Golub
+  /// and C. F. Van Loan, Matrix Computations, section 3.4). Throws Error if it is singular to rounding.
   LinearEquations(std::vector<double> matrix, std::size_t size);
 
   std::size_t size() const { return size_; }
@@ -20,7 +20,7 @@ class LinearEquations {
 
  private:
   std::vector<double> factors_;
-  std::vector<std::size_t> rows_;  // which row of the matrix stands in which
+  std::vector<std::size_t> rows_;  // permutation of the rows
   std::size_t size_ = 0;
   mutable std::vector<double> permuted_;
 };

@@ -30,13 +30,13 @@ double turn(Vector<2> const& a, Vector<2> const& b, Vector<2> const& c) {
   return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
 }
 
-/// Two sides of a polygon that meet other than at their common corner, by the numbers of the corners where they begin.
+/// Two sides of a polygon that meet other than at their common corner, by the numbers of their first corners.
 std::optional<std::array<std::size_t, 2>> crossing_sides(std::vector<Vector<2>> const& points) {
   std::size_t const count = points.size();
   for (std::size_t i = 0; i < count; ++i) {
     std::size_t const next = (i + 1) % count;
     auto const &a = points[i], &b = points[next], &beyond = points[(i + 2) % count];
-    if (turn(a, b, beyond) == 0 && dot(b - a, beyond - b) < 0) return std::array{i, next};  // it goes back
+    if (turn(a, b, beyond) == 0 && dot(b - a, beyond - b) < 0) return std::array{i, next};  // it reverses direction
     for (std::size_t j = i + 2; j < count; ++j) {
       if (i == 0 && j + 1 == count) continue;
       auto const &c = points[j], &d = points[(j + 1) % count];

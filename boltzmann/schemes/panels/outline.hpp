@@ -12,35 +12,35 @@ namespace boltzmann {
 struct Outline {
   /// Corners on the shape, counterclockwise; the last side leads back to the first corner.
   std::vector<Vector<2>> corners;
-  /// Whether the first corner is a trailing edge, where a Kutta condition can hold.
+  /// True if the first corner is a trailing edge, where a Kutta condition can hold.
   bool sharp = false;
 };
 
 Outline circle_outline(Vector<2> const& centre, double radius, std::size_t panels);
-/// Semi-axes along x and y before it is turned counterclockwise by `angle` (radians).
+/// Semi-axes along x and y before a counterclockwise rotation by `angle` (radians).
 Outline ellipse_outline(Vector<2> const& centre, double a, double b, double angle, std::size_t panels);
-/// An aerofoil of NACA's four digits, "2412" (I. H. Abbott and A. E. von Doenhoff, Theory of Wing Sections, chapter 6), with
-/// the closed trailing edge of the last coefficient -0.1036. `centre` is the quarter of its chord; `attack` (radians)
-/// lifts its nose. Error if the name is not four digits, or the thickness zero.
+/// A four-digit NACA aerofoil, "2412" (I. H. Abbott and A. E. von Doenhoff, Theory of Wing Sections, chapter 6), with
+/// the closed trailing edge of the last coefficient -0.1036. `centre` is its quarter-chord point; `attack` (radians)
+/// lifts its nose. Throws Error if the name is not four digits, or the thickness is zero.
 Outline naca_outline(std::string const& digits, Vector<2> const& centre, double chord, double attack,
                      std::size_t panels);
-/// Through these points, either way around, each side cut into equal panels, so that there are about so many. Error if
-/// sides cross or nothing is inside.
+/// A polygon through these points, in either orientation. Each side is cut into equal panels, about `panels` in all.
+/// Throws Error if sides cross or the area is zero.
 Outline polygon_outline(std::vector<Vector<2>> points, std::size_t panels, bool sharp = false);
 
-/// Where a shape of a file is put: its numbers times `length`, turned counterclockwise by `angle` (radians) about its
-/// origin, which is at `centre`.
+/// The transformation of a shape from a file: its numbers times `length`, rotated counterclockwise by `angle` (radians)
+/// about its origin, which is at `centre`.
 struct OutlinePlace {
   double length = 1, angle = 0;
   Vector<2> centre{};
 };
-/// The polygon through the points of a file, x and y on a line of its own (laws/two_columns.hpp), either way around; the
-/// first may stand at the end again. With a `sharp` edge it is the first. Error with file and line if it can't be read, if
-/// two neighbours are at one place or sides meet.
+/// The polygon through the points of a file, x and y on a line each (laws/two_columns.hpp), in either orientation. The
+/// last point may repeat the first. With a `sharp` edge it is the first point. Throws Error with file and line if the
+/// file can't be read, if two neighbours are coincident or sides meet.
 Outline outline_from_file(std::string const& path, std::size_t panels, OutlinePlace const& place = {},
                           bool sharp = false);
 
-/// Error, in one line, if it is no outline: fewer than 3 corners, two at one place, clockwise.
+/// Throws Error, in one line, if it is not a valid outline: fewer than 3 corners, coincident corners, clockwise.
 void check(Outline const& outline);
 
 }  // namespace boltzmann

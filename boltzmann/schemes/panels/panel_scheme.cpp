@@ -1,4 +1,4 @@
-// From the velocities on panels to the sheet, and from the sheet to what it carries.
+// Computes the sheet from velocities on panels, and its velocity at advected particles.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/schemes/panels/panel_kernels.hpp>
 #include <boltzmann/schemes/panels/panel_scheme.hpp>

@@ -17,8 +17,8 @@ namespace boltzmann {
 namespace {
 
 constexpr std::size_t max_panels = 2000;
-/// Within so many of its lengths a panel is integrated; beyond, three points of Gauss stand for it, with errors below 1e-6
-/// of what it does.
+/// Closer than this number of its lengths, a panel is integrated. Further away, three Gauss points represent it, with
+/// relative errors below 1e-6.
 constexpr double near_lengths = 5;
 constexpr std::array<double, 3> gauss_places{0.11270166537925831, 0.5, 0.88729833462074169};
 constexpr std::array<double, 3> gauss_weights{5.0 / 18, 8.0 / 18, 5.0 / 18};
@@ -97,7 +97,7 @@ void PanelSheet::factorise() {
   std::size_t row = 0;
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     auto const& body = bodies_[b];
-    // The stream function at each corner is that of the body.
+    // The stream function is constant at all corners of the body.
     for (std::size_t k = 0; k < body.panels; ++k, ++row) {
       double* const numbers = &matrix[row * count];
       auto const& corner = panels_[body.first_panel + k].from;
@@ -112,7 +112,7 @@ void PanelSheet::factorise() {
     std::size_t const first = body.first_strength, end = first + body.strengths - 1;
     if (body.kutta) {
       last[first] = last[end] = 1;
-      // The trailing edge has one corner and two strengths; what they have in common goes on as before them.
+      // The trailing edge has one corner and two strengths. Their sum continues smoothly.
       double* const smooth = &matrix[row++ * count];
       smooth[first] = 1, smooth[first + 1] = -2, smooth[first + 2] = 1;
       smooth[end] = -1, smooth[end - 1] = 2, smooth[end - 2] = -1;
@@ -135,7 +135,7 @@ void PanelSheet::state_equations(std::span<double const> normal_velocity, bool p
     for (std::size_t k = body.first_panel; k < body.first_panel + body.panels; ++k)
       flux += normal_velocity[k] * panels_[k].length, around += panels_[k].length;
     double stream =
-        0;  // of what comes from outside; nothing flows out of a body, but for errors of the mean velocities
+        0;  // of the external flow; the net flux out of a body is zero, except for errors of the mean velocities
     for (std::size_t k = body.first_panel; k < body.first_panel + body.panels; ++k) {
       numbers[row++] = -stream;
       stream += (normal_velocity[k] - flux / around) * panels_[k].length;
@@ -168,13 +168,13 @@ void PanelSheet::solve(std::span<double const> normal_velocity) {
 }
 
 /// (u - i v) = 1/(2 pi i) integral of the strength over (z - s), in the frame of the panel (J. Katz and A. Plotkin,
-/// Low-Speed Aerodynamics, section 10.3). The logarithm is infinite at corners: those of panels that go on straight cancel,
-/// what a corner leaves is smoothed over a fifth of the shortest panel.
+/// Low-Speed Aerodynamics, section 10.3). The logarithm is infinite at corners. Those of collinear neighbours cancel;
+/// the remainder at a corner is smoothed over a fifth of the shortest panel.
 Vector<2> PanelSheet::velocity(SheetPanel const& panel, Vector<2> const& place) const {
   auto const at = in_frame(panel, place);
   double const a = at[0], b = at[0] - panel.length, y = at[1];
   double const log = 0.5 * std::log((a * a + y * y + smooth2_) / (b * b + y * y + smooth2_));
-  double const angle = std::atan2(0.0 - y * panel.length, a * b + y * y);  // on the panel: outside
+  double const angle = std::atan2(0.0 - y * panel.length, a * b + y * y);  // on the panel: the outer side
   double const first = strengths_[panel.first], slope = (strengths_[panel.second] - first) / panel.length;
   double const value = first + slope * a;
   // (value + i slope y) (log + i angle) - slope length
@@ -268,7 +268,7 @@ void PanelSheet::add_velocities(double const* x, double const* y, double* u, dou
   if (panels_.empty()) return;
   SheetPoints const points{point_x_.data(), point_y_.data(), point_strength_.data(), point_x_.size(), core2_};
   auto const velocities = for_instruction_set([](auto set) { return panel_kernels<set>().velocities; });
-  constexpr std::size_t grain = 512;  // a multiple of what a kernel does at once
+  constexpr std::size_t grain = 512;  // a multiple of the block of a kernel
   static_assert(grain % places_padding == 0);
   for_ranges(
       count, grain, threads_for(count, static_cast<double>(points.count) / 8, threads),
@@ -295,7 +295,7 @@ bool PanelSheet::inside(Vector<2> const& place) const {
   for (auto const& body : bodies_) {
     if (place[0] < body.low[0] || place[1] < body.low[1] || place[0] > body.high[0] || place[1] > body.high[1])
       continue;
-    bool odd = false;  // sides to the right of it
+    bool odd = false;  // parity of the sides to the right of it
     for (std::size_t k = 0; k < body.panels; ++k) {
       auto const &a = panels_[body.first_panel + k].from, &b = panels_[body.first_panel + (k + 1) % body.panels].from;
       if ((a[1] > place[1]) != (b[1] > place[1]) && place[0] < a[0] + (place[1] - a[1]) / (b[1] - a[1]) * (b[0] - a[0]))

@@ -1,4 +1,4 @@
-// Velocities of a sheet's points, lanes are places, compiled for each instruction set.
+// Velocities of a sheet's points. Lanes are places; compiled for each instruction set.
 #include <boltzmann/core/kernel_unit.hpp>
 #include <boltzmann/core/pack.hpp>
 #include <boltzmann/schemes/panels/panel_kernels.hpp>
@@ -19,7 +19,7 @@ void store(Pack<double, W> const& pack, double* to) {
   std::memcpy(to, &pack, sizeof pack);
 }
 
-/// Two packs of places go past each point, so that one division waits for the other.
+/// Two packs of places share each point, so that their divisions overlap.
 template <int W>
 void velocities(SheetPoints const& points, double const* x, double const* y, double* u, double* v, std::size_t count) {
   using P = Pack<double, W>;

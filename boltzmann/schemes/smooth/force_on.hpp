@@ -1,11 +1,11 @@
-// A law that gives a force, as one that gives the influence on smooth particles.
+// Converts a law that returns a force to one that returns the influence on smooth particles.
 #pragma once
 
 #include <boltzmann/laws/parameter.hpp>
 
 namespace boltzmann {
 
-/// Calls law(p) or law(p, time), and puts the force into an influence that has nothing else: no heat.
+/// Calls law(p) or law(p, time), and returns its force as an influence without heat.
 template <class Law>
 struct ForceOn {
   Law law;

@@ -1,4 +1,4 @@
-// The table of kernels of one weight, for kernel units (see core/kernel_unit.hpp). Private to this room.
+// The table of kernels of one weight, for kernel units (see core/kernel_unit.hpp). Private to this module.
 #pragma once
 
 #include <boltzmann/core/kernel_unit.hpp>

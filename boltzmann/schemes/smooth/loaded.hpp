@@ -1,4 +1,4 @@
-// What a SmoothScheme has loaded, and what its sources share. Private to this room.
+// The ensembles of a SmoothScheme, and the types that its source files share. Private to this module.
 #pragma once
 
 #include <boltzmann/core/in_dimension.hpp>
@@ -11,7 +11,7 @@
 
 namespace boltzmann {
 
-/// How many blocks of a row SmoothTransport has behind SmoothFluid.
+/// The number of blocks of a row in SmoothTransport after SmoothFluid.
 inline std::size_t transport_blocks(int dimension) {
   return in_dimension(dimension, [](auto d) {
     return (sizeof(SmoothTransport<d>) - sizeof(SmoothFluid<d>)) / sizeof(double) / row_block;
@@ -23,7 +23,7 @@ struct SmoothScheme::Loaded {
   MaterialKernels kernels;
   std::shared_ptr<void const> material;
   std::size_t first = 0;               // number of its first particle among all
-  std::vector<std::uint32_t> members;  // its rows of the sorted copy, if it is not alone
+  std::vector<std::uint32_t> members;  // its rows of the sorted copy, if there are other ensembles
   MaterialTask task;
 };
 
@@ -47,7 +47,7 @@ namespace detail {
 
 inline constexpr std::size_t particle_grain = material_grain;
 inline constexpr double skin_of_range = 0.08;
-inline constexpr double room_to_grow = 1.05;  // lists reach so much further than ranges that vary
+inline constexpr double room_to_grow = 1.05;  // margin of lists for ranges that vary
 inline constexpr double infinite = std::numeric_limits<double>::infinity();
 
 }  // namespace detail

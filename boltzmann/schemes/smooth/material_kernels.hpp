@@ -1,4 +1,4 @@
-// What is done to each smooth particle between the passes: its material, on rows of the user's own class.
+// The calculations on each smooth particle between the passes: its material, on rows of the user's own class.
 #pragma once
 
 #include <boltzmann/laws/material.hpp>
@@ -15,10 +15,10 @@
 
 namespace boltzmann {
 
-/// What is worth knowing about the states of some particles.
+/// Summary of the states of some particles.
 struct Found {
   static constexpr std::size_t nobody = static_cast<std::size_t>(-1);
-  std::size_t not_finite = nobody;  ///< the first particle whose state is not
+  std::size_t not_finite = nobody;  ///< the first particle whose state is not finite
   double sound_rate = 0;            ///< the largest sound speed / range
 };
 
@@ -33,7 +33,7 @@ struct MaterialTask {
   double* transport = nullptr;             ///< SmoothTransport's first block; null: no pass reads it
   double* matter = nullptr;                ///< SmoothMatter's first block; null: no pass reads it
   double* solid = nullptr;                 ///< SmoothSolid's first block; null: no hourglass control
-  std::size_t block_stride = 0;            ///< from one of its blocks to the next
+  std::size_t block_stride = 0;            ///< stride of its blocks
   double const* density = nullptr;         ///< sums of the density pass; null: the density is the particle's own
   double const* gradients = nullptr;       ///< sums of the gradient pass
   double const* motion = nullptr;          ///< sums of the motion pass
@@ -43,26 +43,26 @@ struct MaterialTask {
   bool adaptive = false;                   ///< ranges follow densities; else factors are 1
   double self = 0;                         ///< w(0) range^D
   Found* found = nullptr;                  ///< one for each range of members that begins at a multiple of the grain
-  bool uniform = false;                    ///< rates are accelerations alone
+  bool uniform = false;                    ///< rates consist of accelerations only
   bool continuity = false;                 ///< densities evolve
   bool balsara = false;
-  double shortest = 0, longest = 0;  ///< between which ranges vary
+  double shortest = 0, longest = 0;  ///< limits of variable ranges
   double spacings = 0;               ///< range = spacings (mass / density)^(1/D) between them
-  std::size_t particle_stride = 0;   ///< from one row of the ensemble to the next
+  std::size_t particle_stride = 0;   ///< stride of the ensemble's rows
 };
 
 using MaterialKernel = void (*)(void const* material, MaterialTask const& task, std::size_t begin, std::size_t end);
 
 /// The kernels of a material for a class.
 struct MaterialKernels {
-  MaterialKernel state = nullptr;      ///< density and state, into the particles and SmoothFluid's block
-  MaterialKernel fluxes = nullptr;     ///< into SmoothMatter's blocks, and rates of further fields into the influence
+  MaterialKernel state = nullptr;      ///< computes density and state, into the particles and SmoothFluid's block
+  MaterialKernel fluxes = nullptr;     ///< writes SmoothMatter's blocks, and rates of further fields into the influence
   MaterialKernel rates = nullptr;      ///< adds to the influence
-  MaterialKernel motion = nullptr;     ///< the local motion, into SmoothTransport's blocks
+  MaterialKernel motion = nullptr;     ///< writes the local motion into SmoothTransport's blocks
   MaterialKernel transport = nullptr;  ///< adds to the influence
   double (*diffusivity)(void const* material, double const* particle) = nullptr;      ///< null: none
   double (*shear_stiffness)(void const* material, double const* particle) = nullptr;  ///< null: none
-  MaterialKernel cohesion = nullptr;     ///< into SmoothSolid's first block
+  MaterialKernel cohesion = nullptr;     ///< writes SmoothSolid's first block
   MaterialKernel strain = nullptr;       ///< advances solids, adds to the influence
   MaterialKernel solid_force = nullptr;  ///< adds the forces of the passes of solids to the influence
   bool needs_gradients = false, has_transport = false, conducts = false, barotropic = false, constant_push = false;
@@ -87,8 +87,7 @@ double power(double x) {
   return D == 1 ? x : D == 2 ? x * x : x * x * x;
 }
 
-/// Whether a particle is at a limit between which ranges vary, and its density holds it there: its range is then a
-/// constant.
+/// True if a particle's range is at one of its limits, and its density keeps it there: its range is then constant.
 template <class P>
 bool is_held(MaterialTask const& task, P const& p) {
   constexpr int D = P::dimension;
@@ -97,7 +96,7 @@ bool is_held(MaterialTask const& task, P const& p) {
          (p.range <= task.shortest && wanted <= power<D>(task.shortest));
 }
 
-/// From the sums of the density pass, if the density is not the particle's own.
+/// From the sums of the density pass, unless the density is a field of the particle.
 template <class P>
 void find_density(MaterialTask const& task, std::size_t k, P& p) {
   if (!task.density) return;
@@ -116,8 +115,8 @@ TransportCoefficients transport_of(M const& material, P const& p) {
     return {};
 }
 
-/// The viscosity against relative velocities of pairs. In 1D there is no shear: half the bulk viscosity is that of pairs
-/// which expand.
+/// The viscosity acting on relative velocities of pairs. In 1D there is no shear: half of the bulk viscosity acts on
+/// expanding pairs.
 template <int D>
 double pair_viscosity(TransportCoefficients const& transport) {
   return D == 1 ? 0.5 * transport.bulk_viscosity : transport.shear_viscosity;
@@ -127,11 +126,11 @@ inline double resistance(double conductance) {
   return conductance > 1 / unlimited_resistance ? 1 / conductance : unlimited_resistance;
 }
 
-/// A tensor X with X . m = b, for a symmetric m without negative eigenvalues. Directions that m does not have are left
-/// out, so that products are those of least squares there, too.
+/// A tensor X with X . m = b, for a symmetric m without negative eigenvalues. Null directions of m are omitted, so that
+/// products are also those of least squares there.
 template <int D>
 Tensor<D> solved(Tensor<D> b, Tensor<D> m) {
-  constexpr double least = 1e-12;  // pivots below this part of the trace are rounding
+  constexpr double least = 1e-12;  // smaller pivots, relative to the trace, are rounding errors
   double const smallest = least * trace(m);
   int order[D], found = 0;
   bool used[D]{};
@@ -167,8 +166,8 @@ Tensor<D> rotation_of(MotionSum<D, double> const& sums) {
   double const size = trace(sums.moments);
   if (D == 1 || !(size > 0)) return {};
   if constexpr (D == 3) {
-    // The derivatives by W_ab vanish: three equations, singular if all neighbours are on one line, about which nothing
-    // turns.
+    // The derivatives with respect to W_ab vanish: three equations. They are singular if all neighbours are on one
+    // line, and then the rotation about it is zero.
     auto const& m = sums.moments;
     Tensor<3> const matrix{m[0][0] + m[1][1], m[1][2],  -m[0][2], m[1][2],          m[0][0] + m[2][2],
                            m[0][1],           -m[0][2], m[0][1],  m[1][1] + m[2][2]};
@@ -212,15 +211,15 @@ void find_state(void const* the_material, MaterialTask const& task, std::size_t 
   });
 }
 
-/// Adds a force that the scheme heats for.
+/// Adds a force whose heat the scheme calculates.
 template <class Influence, class Force>
 void push(Influence& influence, Force const& force) {
   influence.force += force;
   if constexpr (requires { influence.inner_force; }) influence.inner_force += force;
 }
 
-/// From the sums of the motion pass to what the transport pass reads. Where there are few neighbours (sprays), the
-/// normaliser is no more than twice that of a continuum, so that forces begin with zero at the edge of the range.
+/// From the sums of the motion pass to the input of the transport pass. With few neighbours (sprays), the normaliser is
+/// at most twice that of a continuum, so that forces are zero at the edge of the range.
 template <class P, class M>
 void find_motion(void const* the_material, MaterialTask const& task, std::size_t begin, std::size_t end) {
   constexpr int D = P::dimension;
@@ -229,7 +228,7 @@ void find_motion(void const* the_material, MaterialTask const& task, std::size_t
     auto const& sums = reinterpret_cast<MotionSum<D, double> const*>(task.motion)[k];
     double* const block = task.transport + row_block * k;
     double const spread = max(sums.spread, 0.5 * D), normaliser = D / spread, expansion = normaliser * sums.approach;
-    // Of the pairs: the part of the pair viscosity that opposes an even expansion, no more than they dissipate.
+    // The part of the pair viscosity that opposes isotropic expansion, at most what the pairs dissipate.
     double const in_pairs = sums.resistance > 0 ? 2.0 / D * spread / sums.resistance : 0;
     block[2] /= normaliser;
     block[3] = normaliser * (transport_of(material, p).bulk_viscosity - in_pairs) * expansion;
@@ -268,7 +267,7 @@ double shear_switch(Tensor<D> const& gradient, double sound_speed, double range)
   return div + rest > 0 ? div / (div + rest) : 1;
 }
 
-/// Whether the material and the class have what the passes of solids need. Nothing shears in 1D.
+/// True if the material and the class have the data that the passes of solids need. In 1D there is no shear.
 template <class M, class P>
 inline constexpr bool is_solid = P::dimension > 1 &&
                                  requires(M const& material, P const& p, typename P::Influence& influence) {
@@ -297,8 +296,8 @@ void find_cohesion(void const* the_material, MaterialTask const& task, std::size
   });
 }
 
-/// L of the correction: 1 / B, but bounded; B^7 / (B^8 + e^8), normalised to 1 for B = 1, is never more than 6.9. The
-/// torque of the stress T on a particle is the antisymmetric part of B.L.T, so L.B has to be close to 1 also at corners.
+/// L of the correction: a bounded form of 1 / B. B^7 / (B^8 + e^8), normalised to 1 for B = 1, is at most 6.9. The
+/// torque of the stress T on a particle is the antisymmetric part of B.L.T, so L.B must be close to 1 also at corners.
 template <int D>
 Tensor<D> correction_of(Tensor<D> const& spread) {
   constexpr double e8 = 1e-8;
@@ -306,7 +305,7 @@ Tensor<D> correction_of(Tensor<D> const& spread) {
   return dot(dot(dot(fourth, square), spread), inverse(dot(fourth, fourth) + Tensor<D>::identity() * e8)) * (1 + e8);
 }
 
-/// The vector b for which Sum phi r (1 - b.r) = 0. Where all neighbours lie on a line or in a plane, b is along it.
+/// The vector b for which Sum phi r (1 - b.r) = 0. If all neighbours lie on a line or in a plane, b is along it.
 template <int D>
 Vector<D> tilt_of(SolidSum<D, double> const& sums) {
   double const size = trace(sums.near_spread);
@@ -314,7 +313,7 @@ Vector<D> tilt_of(SolidSum<D, double> const& sums) {
   return dot(inverse(sums.near_spread / size + Tensor<D>::identity() * 1e-10), sums.offset / size);
 }
 
-/// How the neighbours of a solid particle stand.
+/// The arrangement of the neighbours of a solid particle.
 template <int D>
 struct Surroundings {
   SolidSum<D, double> const& sums;
@@ -331,7 +330,7 @@ struct Surroundings {
   Vector<D> hourglass_velocity() const { return (sums.velocity - dot(tilt, sums.near_gradient)) * scale; }
 };
 
-/// The fields that follow from strain, at a later time.
+/// The strain-driven fields at a later time.
 template <class P>
 void advance(P& p, typename P::Influence const& rates, double time) {
   p.density += rates.density_rate * time;
@@ -349,7 +348,7 @@ void add(Influence& to, Influence const& more) {
   for (std::size_t c = 0; c < sizeof(Influence) / sizeof(double); ++c) sum[c] += x[c];
 }
 
-/// An estimate of what strains of the given rates heat a particle: V (G h . dh/dt - P : grad v).
+/// An estimate of the heating of a particle by strains of the given rates: V (G h . dh/dt - P : grad v).
 template <class M, class P>
 double strain_power(M const& material, P const& p, Gradients<P::dimension> const& gradients,
                     Vector<P::dimension> const& hourglass_velocity) {
@@ -360,7 +359,7 @@ double strain_power(M const& material, P const& p, Gradients<P::dimension> const
   return sum * p.mass / p.density;
 }
 
-/// The rates of the fields that follow from strain. Fields that lag are advanced by them, by the midpoint rule: from the
+/// The rates of the strain-driven fields. Fields that lag are advanced with them by the midpoint rule: from the
 /// velocities of the half step and the state in the middle.
 template <class P, class M>
 void find_strain(void const* the_material, MaterialTask const& task, std::size_t begin, std::size_t end) {
@@ -370,7 +369,7 @@ void find_strain(void const* the_material, MaterialTask const& task, std::size_t
       Surroundings<P::dimension> const around(task, k);
       auto const hourglass_velocity = around.hourglass_velocity();
       Gradients<P::dimension> gradients{dot(around.l, around.sums.gradient), {}};
-      // From the places at the end of the step to those in the middle: x -> x - v lag / 2.
+      // Converts from the positions at the end of the step to those in the middle: x -> x - v lag / 2.
       gradients.velocity += dot(gradients.velocity, gradients.velocity) * (p.lag / 2);
       auto const rates_at = [&](P const& state) {
         typename P::Influence rates{};
@@ -396,7 +395,7 @@ void find_strain(void const* the_material, MaterialTask const& task, std::size_t
   }
 }
 
-/// What the force pass of solids reads of a particle. The pressure is corrected only where the density evolves.
+/// The input of the force pass of solids for a particle. The pressure is corrected only if the density evolves.
 template <int D>
 void write_strength(MaterialTask const& task, std::size_t k, Surroundings<D> const& around, Tensor<D> const& stress,
                     double pressure, double volume, Vector<D> const& hourglass_stress) {
@@ -412,7 +411,7 @@ void write_strength(MaterialTask const& task, std::size_t k, Surroundings<D> con
     task.solid[(2 + c / row_block) * task.block_stride + row_block * k + c % row_block] = values[c];
 }
 
-/// Nothing, where there is no strength.
+/// Nothing for materials without strength.
 template <int D>
 void clear_strength(MaterialTask const& task, std::size_t k) {
   for (std::size_t c = 0; c < 2 * D + D * D; ++c)

@@ -1,5 +1,5 @@
 // The passes of SPAM over pairs of particles: density, gradients, rates (steps 2, 3 and 5 of its recipe). Each is a
-// law: what q contributes to p. With slope = w'(r)/r and r = q - p, grad_p w = -slope r.
+// law: the contribution of q to p. With slope = w'(r)/r and r = q - p, grad_p w = -slope r.
 #pragma once
 
 #include <boltzmann/laws/weight.hpp>
@@ -7,15 +7,15 @@
 
 namespace boltzmann {
 
-/// What passes know besides the particles.
+/// Parameters of the passes besides the particles.
 struct PassParameters {
-  double range = 0;  ///< of all particles, where they have one
-  double push = 0;   ///< P / rho^2, where it is the same for all
-  /// Which part of the work that the pressure of a particle does on a pair heats itself, and which the other: a half
-  /// each in Eq 14; all and nothing keep each particle on its isentrope.
+  double range = 0;  ///< of all particles, if it is common
+  double push = 0;   ///< P / rho^2, if it is the same for all
+  /// The shares of a particle's pressure work on a pair that heat the particle itself and the other one. Half each in
+  /// Eq 14; all and nothing keep each particle on its isentrope.
   double own_share = 0.5, other_share = 0.5;
   double alpha = 0, beta = 0;  ///< artificial viscosity (Monaghan 1992)
-  double by_volume = 0;        ///< 1: neighbours count by their volume in all rates
+  double by_volume = 0;        ///< 1: all rates weight neighbours by their volume
 };
 
 template <class Real>
@@ -25,7 +25,7 @@ struct DensitySum {
 template <class Real>
 struct VariableDensitySum {
   Real density;
-  Real stretch;  ///< Sum m r w'(r): how density changes with the range, d rho / d ln(range) = -(D rho + stretch)
+  Real stretch;  ///< Sum m r w'(r): dependence of the density on the range, d rho / d ln(range) = -(D rho + stretch)
 };
 template <int D, class Real>
 struct GradientSum {
@@ -42,7 +42,7 @@ struct RateSum {
   Real heating;      ///< de/dt
   Real compression;  ///< d rho / dt
 };
-// For compilers that don't deduce those of aggregates.
+// For compilers without deduction for aggregates.
 template <class Real>
 DensitySum(Real) -> DensitySum<Real>;
 template <class Real>
@@ -56,7 +56,7 @@ RateSum(Vector<D, Real>, Real, Real) -> RateSum<D, Real>;
 
 namespace detail {
 
-/// The weights that one particle of a pair gives the other: by its own range, or by that of all.
+/// The weight factors of a pair: by each particle's own range, or by the common range.
 template <class Shape, bool variable, class P>
 [[gnu::always_inline]] inline auto weigh_by(P const& p, decltype(P::range) const& r2,
                                             PassParameters const& parameters) {
@@ -106,7 +106,7 @@ struct GradientPass {
   }
 };
 
-/// Eq 13 where P / rho^2 is the same for all (Eq 20).
+/// Eq 13 if P / rho^2 is the same for all (Eq 20).
 template <class Shape>
 struct UniformPass {
   PassParameters parameters;
@@ -119,15 +119,15 @@ struct UniformPass {
   }
 };
 
-/// What rates are made of: pressure alone, with artificial viscosity, or everything.
+/// The terms of rates: pressure only, with artificial viscosity, or all.
 enum class RateTerms { pressure, viscous, all };
 
 /// Eq 13, 14 and the continuity equation, with the grad-h factors of variable ranges inside push, stress and heat.
 /// Artificial viscosity: Pi = (-alpha c mu + beta mu^2) / rho with means of both particles, mu = h v.r / (r^2 +
-/// h^2/100) of those that approach, h the smoothing length (Monaghan 1992).
+/// h^2/100) for approaching pairs, h the smoothing length (Monaghan 1992).
 ///
-/// With `volumes` neighbours count by these: d rho_i / dt = rho_i Sum (m_j / rho_j) (v_i - v_j).grad w, and P_i /
-/// (rho_i rho_j) in place of P_i / rho_i^2 in Eq 13, 14, which conserves energy with it.
+/// With `volumes` neighbours are weighted by volume: d rho_i / dt = rho_i Sum (m_j / rho_j) (v_i - v_j).grad w, and
+/// P_i / (rho_i rho_j) in place of P_i / rho_i^2 in Eq 13, 14, which conserves energy with it.
 template <class Shape, bool variable, RateTerms terms, bool volumes = false>
 struct RatePass {
   PassParameters parameters;

@@ -1,4 +1,4 @@
-// Splitting and merging rows, and the choice of the pairs that merge.
+// Splits and merges rows, and selects the pairs to merge.
 #include <boltzmann/core/number.hpp>
 #include <boltzmann/core/random.hpp>
 #include <boltzmann/neighbours/cells.hpp>
@@ -20,7 +20,7 @@ using Offset = std::array<double, 3>;
 
 constexpr double usual_offset = 0.1;  // in units of the range
 
-/// An ensemble with the places of the fields that rezoning changes.
+/// An ensemble with the offsets of the fields that rezoning changes.
 struct Rows {
   AnyEnsemble& ensemble;
   int dimension, mass, position, velocity, energy, range;
@@ -54,7 +54,7 @@ void check_dimension_of(AnyEnsemble const& ensemble, Box const& box) {
                             ensemble.dimension(), box.dimension()));
 }
 
-/// Half of row i goes into row `half`.
+/// Moves half of row i into row `half`.
 void halve(Rows const& rows, std::size_t i, std::size_t half, double const* offset) {
   double* const a = rows.ensemble.row(i);
   double* const b = rows.ensemble.row(half);
@@ -73,7 +73,7 @@ Vector<3> in_space(double const* components, int dimension) {
   return result;
 }
 
-/// Row i takes up row j, which stays as it is; the angular momentum that is lost.
+/// Merges row j into row i; row j is unchanged. Returns the lost angular momentum.
 Vector<3> take_up(Rows const& rows, Box const& box, std::size_t i, std::size_t j) {
   double* const a = rows.ensemble.row(i);
   double const* const b = rows.ensemble.row(j);
@@ -99,7 +99,7 @@ Vector<3> take_up(Rows const& rows, Box const& box, std::size_t i, std::size_t j
   return cross(in_space(apart.data(), d), v) * reduced;
 }
 
-/// Removes the rows that are marked; the others move up in their order.
+/// Removes the marked rows; the others move up in their order.
 void remove(AnyEnsemble& ensemble, std::vector<char> const& gone) {
   std::size_t next = 0;
   for (std::size_t i = 0; i < ensemble.size(); ++i) {
@@ -110,7 +110,7 @@ void remove(AnyEnsemble& ensemble, std::vector<char> const& gone) {
   ensemble.resize(next);
 }
 
-/// A direction in space that every pair of numbers has its own of.
+/// A direction that is unique to each pair of numbers.
 Offset offset_of(Rows const& rows, std::size_t i, std::size_t size) {
   Stream stream(size, 0, i, Purpose::selection);
   double const length = usual_offset * rows.ensemble.row(i)[rows.range];
@@ -127,8 +127,7 @@ bool within(std::array<double, 3> const& low, std::array<double, 3> const& high,
   return true;
 }
 
-/// Shortens the offset where a half would come too near to a wall; false if there is no room to
-/// split.
+/// Shortens the offset if a half would be too near to a wall. Returns false if there is no room to split.
 bool make_fit(Box const& box, double const* x, int dimension, Offset& offset) {
   double wanted = 0, left = 0;
   for (int k = 0; k < dimension; ++k) {
@@ -151,19 +150,19 @@ bool make_fit(Box const& box, double const* x, int dimension, Offset& offset) {
   return true;
 }
 
-/// A row that is to be split.
+/// A row to be split.
 struct Split {
   std::size_t row;
   Offset offset;
 };
-/// Two candidates that could merge; who comes first, merges first.
+/// Two candidates for merging. The first in order merges first.
 struct NearPair {
   double square_of_distance;
   std::uint32_t i, j;
   auto key() const { return std::tie(square_of_distance, i, j); }
 };
 
-/// A place, and those of its periodic images that somebody in the box may be near to.
+/// A position, and its periodic images that may be near to particles in the box.
 std::vector<Offset> with_images(Offset const& place, Box const& box, double reach) {
   std::vector<Offset> all{place};
   for (int k = 0; k < box.dimension(); ++k) {
@@ -179,7 +178,7 @@ std::vector<Offset> with_images(Offset const& place, Box const& box, double reac
   return all;
 }
 
-/// The rows of those candidates that merge.
+/// The pairs of candidates to merge.
 std::vector<std::array<std::size_t, 2>> pairs_of(Rows const& rows, Box const& box,
                                                  std::vector<std::size_t> const& candidates, Rezoning const& rezoning) {
   int const d = rows.dimension;
@@ -239,7 +238,7 @@ std::size_t split(AnyEnsemble& ensemble, std::size_t i, std::span<double const> 
                             rows.dimension));
   for (double const x : offset)
     if (!std::isfinite(x)) throw Error(fmt::format("rezoning: an offset of {} is not finite", x));
-  Offset copy{};  // it may be one of the rows, which resizing moves
+  Offset copy{};  // a copy, because it may be one of the rows, which resizing moves
   std::copy(offset.begin(), offset.end(), copy.begin());
   std::size_t const half = ensemble.size();
   ensemble.resize(half + 1);
@@ -313,7 +312,7 @@ void check(AnyEnsemble const& ensemble, Box const& box, Rezoning const& rezoning
 
 namespace {
 
-/// What the state as it stands asks for.
+/// The rows to split and the candidates for merging in the current state.
 struct Chosen {
   std::vector<Split> splits;
   std::vector<std::size_t> candidates;  ///< for merging

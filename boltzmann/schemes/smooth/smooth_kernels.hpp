@@ -11,7 +11,7 @@ namespace boltzmann {
 struct SmoothPasses {
   PairKernel density = nullptr;
   PairKernel gradients = nullptr, gradients_geometric = nullptr;
-  PairKernel uniform = nullptr;  ///< only where ranges are the same
+  PairKernel uniform = nullptr;  ///< only if all ranges are equal
   PairKernel pressure = nullptr, viscous = nullptr, all = nullptr;
   PairKernel viscous_by_volume = nullptr, all_by_volume = nullptr;
   PairKernel fluid = nullptr, fluid_viscous = nullptr, fluid_by_volume = nullptr;  ///< with viscosity and conduction
@@ -30,7 +30,7 @@ struct SmoothKernelTable {
 template <InstructionSet set, class Shape>
 SmoothKernelTable const& smooth_kernels();
 
-/// The passes of solids: gradients and what hourglass control sums, and the forces.
+/// The passes of solids: gradients with the sums of hourglass control, and the forces.
 struct SolidPasses {
   PairKernel sums = nullptr, forces = nullptr;
 };
@@ -39,7 +39,7 @@ struct SolidPasses {
 template <InstructionSet set>
 SolidPasses solid_passes(WeightShape shape, int dimension, bool own_ranges);
 
-/// The table of a weight, in the instruction set in use.
+/// The table of a weight, for the selected instruction set.
 SmoothKernelTable const& smooth_kernels_of(WeightShape shape);
 
 }  // namespace boltzmann

@@ -1,4 +1,4 @@
-// What a SmoothScheme says of its particles: energies, steps that make sense, and what is wrong.
+// Reports of a SmoothScheme on its particles: energies, sensible time steps, and errors.
 #include <boltzmann/core/exact_sum.hpp>
 #include <boltzmann/schemes/smooth/loaded.hpp>
 
@@ -14,11 +14,12 @@ using namespace detail;
 namespace {
 
 constexpr double courant_number = 0.4;
-constexpr double rows_number = 0.35;  // rows of a solid swing against each other with up to 4.7 shear speed / spacing
-// Alternating rows lose velocity at the rate 4 s nu Sum V K = 24 nu / range^2 in 2D and 26 in 3D (s: rest_share), and half
-// as much again where they touch a thicker fluid. Leap-frog is stable up to 1 / rate.
+// adjacent rows of a solid oscillate against each other with up to 4.7 shear speed / spacing
+constexpr double rows_number = 0.35;
+// Alternating rows lose velocity at the rate 4 s nu Sum V K = 24 nu / range^2 in 2D and 26 in 3D (s: rest_share), and
+// half as much again at a contact with a more viscous fluid. Leap-frog is stable up to 1 / rate.
 constexpr double diffusion_number = 1.0 / 32;
-constexpr double alone = 0.8;  // the part of the density that is one's own
+constexpr double alone = 0.8;  // a particle's own contribution to its density
 
 double smoothing_length(WeightShape shape) {
   return for_weight(shape, [](auto s) { return decltype(s)::smoothing_length; });
@@ -33,7 +34,7 @@ bool has_temperature(Box const& box) {
 
 }  // namespace
 
-/// The integral over space of what stress adds to the pressure: viscosity (not the artificial one), strength.
+/// The integral over space of the stress besides the pressure: viscosity (not the artificial one), strength.
 Tensor<3> SmoothScheme::stress() {
   Tensor<3> total{};
   SortedCopy const& copy = hood_->copy(*points_);
@@ -51,7 +52,7 @@ Tensor<3> SmoothScheme::stress() {
         if (copy.order()[k] < loaded->first || i >= ensemble.size()) continue;
         double const* p = ensemble.row(i);
         double const by_density2 = loaded->task.factor ? loaded->task.factor[k] : 1;
-        std::size_t number = 1;  // behind the shear switch
+        std::size_t number = 1;  // of the double after the shear switch
         for (int a = 0; a < D; ++a)
           for (int b = a; b < D; ++b, ++number) {
             double const flux =
@@ -68,7 +69,7 @@ Tensor<3> SmoothScheme::stress() {
   return total;
 }
 
-/// As they have just been completed by their owners.
+/// Gathers the particles that their owners have just completed.
 void SmoothScheme::gather_particles() {
   division_->moved();
   division_->make_whole();
@@ -111,7 +112,7 @@ EnergyAndVirial SmoothScheme::measure(double time) {
   Tensor<3> const further = all_is_pressure || points_->size() == 0 ? Tensor<3>{} : stress();
   for (int a = 0; a < box().dimension(); ++a)
     for (int b = 0; b < box().dimension(); ++b) measures.virial[a][b] = further[a][b] + (a == b ? work.value() : 0);
-  // Walls with images heat and push, friction in a barotropic material heats nothing.
+  // Walls with images heat and push; friction heats nothing in a barotropic material.
   measures.driven =
       box().any_wall() || !outside_.empty() ||
       std::any_of(loaded_.begin(), loaded_.end(), [](auto const& loaded) { return loaded->kernels.barotropic; });

@@ -1,4 +1,4 @@
-// The members of smooth schemes and of rezoning with their keys.
+// The keys of smooth schemes and of rezoning.
 #include <boltzmann/core/once.hpp>
 #include <boltzmann/schemes/smooth/smooth_options.hpp>
 

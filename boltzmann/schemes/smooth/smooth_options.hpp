@@ -1,4 +1,4 @@
-// Smooth options: what scenarios say of a continuum, with their keys.
+// Smooth options: the keys in scenarios for a continuum.
 #pragma once
 
 #include <boltzmann/core/options.hpp>
@@ -22,7 +22,7 @@ struct SmoothOptions {
 };
 OptionTable const& smooth_options();
 
-/// A rezoning, and how often it is done. On whom the reader of the scenario finds.
+/// A rezoning, and its interval. The reader of the scenario finds the ensemble.
 struct RezoneOptions {
   std::int64_t every = 1;
   Rezoning policy;

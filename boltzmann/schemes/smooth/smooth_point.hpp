@@ -1,5 +1,5 @@
-// Smooth points: what passes over pairs read of smooth particles, whatever class and ensemble they are of. Each further
-// struct of the chain begins a new block of the row, so that what a pass does not read is in nobody's way.
+// Smooth points: the data of smooth particles that passes over pairs read, independent of class and ensemble. Each
+// further struct of the chain begins a new block of the row, so that blocks that a pass does not read are never loaded.
 #pragma once
 
 #include <boltzmann/core/tensor.hpp>
@@ -9,20 +9,20 @@
 namespace boltzmann {
 
 namespace detail {
-/// So many numbers that nobody reads.
+/// Padding of n numbers.
 template <int n, class Real>
 struct Unread {
   Real unread[n];
 };
 template <class Real>
 struct Unread<0, Real> {};
-/// Up to the next block, behind so many numbers.
+/// Padding to the next block, after this number of doubles.
 template <int numbers>
 inline constexpr int to_next_block = (static_cast<int>(row_block) - numbers % static_cast<int>(row_block)) %
                                      static_cast<int>(row_block);
 }  // namespace detail
 
-/// A place: known before the first pass. Nothing is summed for it: sums stand in the order of rows.
+/// Position: known before the first pass. Sums are not stored here; they are in the order of rows.
 template <int D, class Real = double>
 struct SmoothPlace : Newton<D, Real> {
   static constexpr char const* class_name = "smooth point";
@@ -35,7 +35,7 @@ struct SmoothPlace : Newton<D, Real> {
   }
 };
 
-/// And what density and state say. With grad-h factors (variable ranges) they are in `push`.
+/// Density and state. With grad-h factors (variable ranges), `push` includes them.
 template <int D, class Real = double>
 struct SmoothFluid : SmoothPlace<D, Real>, detail::Unread<detail::to_next_block<2 * D + 2>, Real> {
   Real density;
@@ -44,21 +44,21 @@ struct SmoothFluid : SmoothPlace<D, Real>, detail::Unread<detail::to_next_block<
   Real sound_speed;
 };
 
-/// And what viscosity and conduction read, two blocks: resistances, and the local motion that the motion pass finds.
+/// The input of viscosity and conduction, two blocks: resistances, and the local motion from the motion pass.
 template <int D, class Real = double>
 struct SmoothTransport : SmoothFluid<D, Real> {
   Real volume;                ///< mass / density
-  Real inverse_viscosity;     ///< 1 / shear viscosity; unlimited_resistance where there is none
+  Real inverse_viscosity;     ///< 1 / shear viscosity; unlimited_resistance if it is zero
   Real inverse_conductivity;  ///< 1 / (normaliser * conductivity); likewise
-  Real expansion_push;        ///< what bulk viscosity makes of the local rate of expansion
-  Real friction;              ///< c s: what velocities of neighbours count
-  Real motion[D * D];         ///< c (W - (1 - s) G): what the local motion counts, by rows
+  Real expansion_push;        ///< bulk viscosity times the local rate of expansion
+  Real friction;              ///< c s: weight of neighbours' velocities
+  Real motion[D * D];         ///< c (W - (1 - s) G): weight of the local motion, by rows
   Real unread_here[(3 - D * D % 4) % 4];
 };
-/// Instead of infinity, whose products with zero would not be numbers.
+/// Instead of infinity, whose product with zero would be NaN.
 inline constexpr double unlimited_resistance = 1e100;
 
-/// And what gradients make of it: fluxes beyond the pressure, divided by rho^2 as all of them.
+/// Results of gradients: fluxes beyond the pressure, divided by rho^2 like all fluxes.
 template <int D, class Real = double>
 struct SmoothMatter : SmoothTransport<D, Real> {
   Real shear_switch;             ///< Balsara's: 1 in compression, near 0 in shear
@@ -66,7 +66,7 @@ struct SmoothMatter : SmoothTransport<D, Real> {
   Vector<D, Real> heat;
 };
 
-/// A tensor, as SmoothTransport holds it, times a vector.
+/// A tensor, in the layout of SmoothTransport, times a vector.
 template <int D, class Real>
 [[gnu::always_inline]] inline Vector<D, Real> motion_times(Real const* motion, Vector<D, Real> const& r) {
   Vector<D, Real> v;
@@ -77,7 +77,7 @@ template <int D, class Real>
   return v;
 }
 
-/// A symmetric tensor, as SmoothMatter holds it, times a vector.
+/// A symmetric tensor, in the layout of SmoothMatter, times a vector.
 template <int D, class Real>
 [[gnu::always_inline]] inline Vector<D, Real> stress_times(Real const* stress, Vector<D, Real> const& r) {
   if constexpr (D == 1)

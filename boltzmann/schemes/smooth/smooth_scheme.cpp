@@ -1,4 +1,4 @@
-// The recipe of SPAM, step by step, and when each is needed.
+// The recipe of SPAM, step by step, and when each step is needed.
 #include <boltzmann/schemes/smooth/loaded.hpp>
 
 #include <boltzmann/core/error.hpp>
@@ -23,7 +23,7 @@ constexpr std::size_t pair_grain = 256;
 template <class Particle>
 constexpr std::size_t blocks_of = (sizeof(Particle) / sizeof(double) + row_block - 1) / row_block;
 
-/// What lies behind the places of points: a block of fluid, blocks of transport, and blocks of matter.
+/// The blocks of a point's row after the position: a block of fluid, blocks of transport, and blocks of matter.
 std::size_t place_blocks(int dimension) {
   return in_dimension(dimension, [](auto d) { return row_stride<SmoothPlace<d>> / row_block; });
 }
@@ -31,12 +31,12 @@ std::size_t matter_blocks(int dimension) {
   return in_dimension(dimension, [](auto d) { return blocks_of<SmoothMatter<d>> - blocks_of<SmoothTransport<d>>; });
 }
 
-/// Behind those of matter.
+/// After those of matter.
 std::size_t solid_blocks(int dimension) {
   return in_dimension(dimension, [](auto d) { return blocks_of<SmoothSolid<d>> - blocks_of<SmoothMatter<d>>; });
 }
 
-/// What each number of a point's row is, for its images.
+/// The meaning of each number of a point's row, for its images.
 std::vector<ImageComponent> image_components(int dimension, std::size_t blocks) {
   return in_dimension(dimension, [&](auto d) {
     constexpr int D = d;
@@ -70,7 +70,8 @@ std::vector<ImageComponent> image_components(int dimension, std::size_t blocks) 
   });
 }
 
-/// What is too long, or empty. Between two walls of an axis a particle sees images behind one of them, not behind both.
+/// A text on a range that is too long, or empty. Between two walls of an axis a particle may have images behind one of
+/// them, not behind both.
 std::string too_long(Box const& box, double range, double reach) {
   for (int a = 0; a < box.dimension(); ++a) {
     if (box.boundary(a) != Boundary::open && range > box.length(a))
@@ -87,7 +88,7 @@ std::string too_long(Box const& box, double range, double reach) {
   return "";
 }
 
-/// What is wrong with a particle that can't be weighed.
+/// Why the density of a particle can't be computed.
 std::string not_usable(AnyEnsemble const& ensemble, std::size_t i) {
   for (auto const* name : {"range", "mass"})
     if (double const value = ensemble.row(i)[ensemble.field(name).offset]; !(value > 0 && value < infinite))
@@ -199,11 +200,11 @@ std::size_t SmoothScheme::count() const {
   return count;
 }
 
-/// What is found of the particles of an ensemble where their places are taken.
+/// Properties of the particles of an ensemble, found while their positions are copied.
 struct SmoothScheme::Extent {
   double shortest = infinite, longest = 0;  // of ranges
   std::size_t wrong = std::numeric_limits<std::size_t>::max();
-  bool same = true;  // all that densities are summed from
+  bool same = true;  // all inputs of density sums are unchanged
 
   void take(Extent const& other) {
     shortest = std::min(shortest, other.shortest);
@@ -251,7 +252,7 @@ SmoothScheme::Extent SmoothScheme::take_places(Loaded const& loaded) {
   return all;
 }
 
-/// Step 1: where the particles are, and how they move.
+/// Step 1: copies positions and velocities.
 void SmoothScheme::take_places() {
   if (points_->size() != count()) {
     points_->resize(count());
@@ -274,7 +275,7 @@ void SmoothScheme::take_places() {
   if (division_) agree_on_ranges();
 }
 
-/// What a material without a heat of its own is given by another would be lost.
+/// Throws if a material without a heat of its own receives heat from another, which would be lost.
 void SmoothScheme::check_heating() const {
   Loaded const *keeps = nullptr, *follows = nullptr;
   for (auto const& loaded : loaded_) (loaded->kernels.barotropic ? follows : keeps) = loaded.get();
@@ -285,7 +286,7 @@ void SmoothScheme::check_heating() const {
         follows->ensemble->name(), keeps->ensemble->name()));
 }
 
-/// Whether nobody has moved since places were taken.
+/// True if no particle has moved since positions were copied.
 bool SmoothScheme::all_rest() const {
   bool rest = hood_ && points_->size() == count();
   std::size_t first = 0;
@@ -301,7 +302,7 @@ bool SmoothScheme::all_rest() const {
   return division_ ? division_->team().meet(Team::Occasion::exchanges, {rest ? 0 : 1}).most[0] == 0 : rest;
 }
 
-/// Lists that reach as far as the longest range, unless they are to stay what they are.
+/// Updates lists for the longest range, unless they must not change.
 void SmoothScheme::prepare(bool keep_lists) {
   int const dimension = box().dimension();
   bool const vary = variable_.has_value();
@@ -339,7 +340,7 @@ void SmoothScheme::reach(double cutoff) {
   if (skin_ < 0) hood_->skin(skin_of_range * cutoff);
 }
 
-/// Which sorted rows are whose: with one ensemble, all, unless this rank has a share.
+/// Assigns sorted rows to ensembles: a single ensemble has all, unless the run is divided.
 void SmoothScheme::find_members() {
   bool const all = loaded_.size() == 1 && !division_;
   if (all || members_of_build_ == hood_->version()) return;
@@ -367,7 +368,7 @@ void SmoothScheme::run_pass(PairKernel kernel, std::size_t components, std::vect
   task.same = true;
   task.target_block_stride = task.source_block_stride = copy.block_stride();
   task.row = list.rows();
-  // Whoever looks may find ranges that have grown beyond the cut-off: they are read in all that lists have.
+  // Observers may see ranges that have grown beyond the cut-off. They use all entries of the lists.
   task.length = list.lengths(longest_ > hood_->cutoff(0) ? list_rings - 1 : hood_->ring());
   task.cutoff2 = square(std::max(longest_, hood_->cutoff(0)));
   task.influence = sums.data();
@@ -375,12 +376,12 @@ void SmoothScheme::run_pass(PairKernel kernel, std::size_t components, std::vect
                   [&](std::size_t begin, std::size_t end) { kernel(&parameters_, task, begin, end); });
 }
 
-/// Step 2, unless there are these sums: whoever looks behind a step asks for those of its calculation again.
+/// Step 2, unless these sums exist: observers after a step need those of its calculation again.
 void SmoothScheme::sum_densities(Recipe const& recipe) {
   Summed::For const now{hood_->version(), box().revision(), recipe.own_ranges};
   if (!summed_.hold || summed_.are_for != now)
     run_pass(recipe.passes->density, recipe.own_ranges ? 2 : 1, summed_.sums);
-  summed_.hold = !division_;  // places of others' particles are not looked at
+  summed_.hold = !division_;  // positions of other ranks' particles are not compared
   summed_.are_for = now;
   for (auto& loaded : loaded_) loaded->task.density = summed_.sums.data();
 }
@@ -400,7 +401,7 @@ void SmoothScheme::run_material(MaterialKernel MaterialKernels::*kernel) {
   }
 }
 
-/// What the recipe needs for the particles, materials and options of now.
+/// The recipe for the current particles, materials and options.
 SmoothScheme::Recipe SmoothScheme::recipe() const {
   auto const any = [&](auto const& what) {
     return std::any_of(loaded_.begin(), loaded_.end(), [&](auto const& loaded) { return what(loaded->kernels); });
@@ -432,7 +433,7 @@ SmoothScheme::Recipe SmoothScheme::recipe() const {
   return recipe;
 }
 
-/// Where the material of each ensemble finds what it needs.
+/// Sets the pointers of each ensemble's material task.
 void SmoothScheme::set_tasks(Recipe const& recipe, SortedCopy& copy) {
   if (recipe.own_ranges) factors_.resize(copy.owned());
   std::size_t const fluid = place_blocks(box().dimension());
@@ -472,8 +473,8 @@ void SmoothScheme::set_tasks(Recipe const& recipe, SortedCopy& copy) {
   parameters_.push = loaded_.front()->kernels.push;
 }
 
-/// Where somebody looks behind a step, influences of lists as they are go on to hold: until somebody moves these stay,
-/// also if ranges have grown since (in a run that is divided others would give particles owners without influences).
+/// For observers after a step, influences from the existing lists remain valid until particles move, even if ranges
+/// have grown since (in a divided run a rebuild would migrate particles to owners without their influences).
 void SmoothScheme::find_places(bool looking) {
   bool const keep_lists = looking && variable_ && all_rest();
   take_places();
@@ -500,12 +501,12 @@ void SmoothScheme::find(Until until, bool looking) {
                     matter = transport + transport_blocks(box().dimension()), end = copy.blocks() + copy.extra_blocks(),
                     state_end = transport + (recipe.transport ? 1 : 0);
 
-  std::vector<std::vector<double>> aside;  // rates that nobody wants
+  std::vector<std::vector<double>> aside;  // rates that are discarded
   if (until == Until::fluxes)
     for (auto& loaded : loaded_)
       loaded->task.influence = aside.emplace_back(loaded->ensemble->size() * loaded->ensemble->influence_size()).data();
 
-  // Step 2, and the state of step 4. Where forces need no density, it waits until somebody looks.
+  // Step 2, and the state of step 4. If forces need no density, it is postponed until an observer needs it.
   if (!recipe.uniform || until == Until::state) {
     if (density_from_ == DensityFrom::summation) sum_densities(recipe);
     if (recipe.solids && until != Until::state) strain_solids(recipe, copy);
@@ -540,7 +541,7 @@ SolidPasses SmoothScheme::solid_passes_of(Recipe const& recipe) const {
       [&](auto set) { return solid_passes<decltype(set)::value>(shape_, box().dimension(), recipe.own_ranges); });
 }
 
-/// The strain of solids, before states and forces are found from it; see solid_passes.hpp.
+/// Advances the strain of solids, before states and forces are computed from it; see solid_passes.hpp.
 void SmoothScheme::strain_solids(Recipe const& recipe, SortedCopy& copy) {
   auto const D = static_cast<std::size_t>(box().dimension());
   std::size_t const first = copy.blocks() + copy.extra_blocks() - solid_blocks(box().dimension());
@@ -591,7 +592,7 @@ void SmoothScheme::divide(Division* division) {
   if (hood_) hood_->divide(division, threads());
 }
 
-/// Every rank knows those of its particles.
+/// Exchanges ranges: every rank computes those of its particles.
 void SmoothScheme::agree_on_ranges() {
   auto const bits = [](double positive) { return std::bit_cast<std::int64_t>(positive); };
   auto const all = division_->team().meet(Team::Occasion::exchanges, {bits(longest_), ~bits(shortest_)}).most;
@@ -599,7 +600,7 @@ void SmoothScheme::agree_on_ranges() {
   shortest_ = std::bit_cast<double>(~all[1]);
 }
 
-/// What has been found of particles comes to those who read it, and everybody hears of the fastest sound.
+/// Exchanges the computed data of particles with the ranks that read them, and the greatest sound rate with all.
 void SmoothScheme::bring(SortedCopy& copy, std::size_t first_block, std::size_t last_block) {
   auto const all = division_->team().meet(Team::Occasion::exchanges, {std::bit_cast<std::int64_t>(sound_rate_)}).most;
   sound_rate_ = std::bit_cast<double>(all[0]);

@@ -20,43 +20,42 @@ namespace boltzmann {
 
 class ExactSum;
 
-/// How the density of a particle is known.
+/// The definition of a particle's density.
 enum class DensityFrom {
-  summation,   ///< of the weights around it (Eq 8): mass is conserved exactly
-  continuity,  ///< of its past (Eq 1), as the sum would change: no deficit at free surfaces; give densities at the
-               ///< start
-  volumes  ///< the same, where bodies of different densities touch: a neighbour counts by its volume, not by its mass
+  summation,   ///< sum of the weights around it (Eq 8): mass is conserved exactly
+  continuity,  ///< integrated in time (Eq 1), with the rate of the sum: no deficit at free surfaces; set densities at
+               ///< the start
+  volumes  ///< the same, for contacts of bodies of different densities: neighbours are weighted by volume, not by mass
 };
 Words<DensityFrom> const& density_from_words();
 /// The mean density in gradients (Eq 17).
 enum class MeanDensity { arithmetic, geometric };
 Words<MeanDensity> const& mean_density_words();
-/// Who is heated by the work that pressure does on a pair: both by the same (Eq 14), or each by what its own pressure
-/// does, so that in smooth flow each stays on its isentrope. Total energy is conserved either way.
+/// Distribution of the heat from pressure work on a pair: to both equally (Eq 14), or to each by the work of its own
+/// pressure, so that in smooth flow each stays on its isentrope. Total energy is conserved either way.
 enum class Heating { shared, own };
 Words<Heating> const& heating_words();
 
-/// Monaghan's artificial viscosity: alpha for weak shocks, beta against particles that run through each other.
+/// Monaghan's artificial viscosity: alpha for weak shocks, beta against interpenetration.
 struct ArtificialViscosity {
   double alpha = 1, beta = 2;
-  bool balsara = false;  ///< less of it in shear (Balsara 1995)
+  bool balsara = false;  ///< reduced in shear (Balsara 1995)
 };
 
 /// Ranges that follow the density: range = spacings (mass / density)^(1/D), between two limits.
 struct VariableRange {
   double spacings = 3;
   double shortest = 0;
-  double longest = 0;  ///< 0: four times the longest at the start, or what the box allows
+  double longest = 0;  ///< 0: four times the longest at the start, or the greatest that the box permits
 };
 
 class SmoothScheme final : public Scheme {
  public:
-  /// Smooth particles with weights of this shape; their ranges are the particles' own.
+  /// Smooth particles with weights of this shape; their ranges are fields of the particles.
   explicit SmoothScheme(Box box, WeightShape shape = WeightShape::lucy);
   ~SmoothScheme() override;
 
-  /// Adds an ensemble of a class made from Smooth, and says what it is made of. Particles of all ensembles act on
-  /// each other.
+  /// Adds an ensemble of a class derived from Smooth, with its material. Particles of all ensembles interact.
   template <class P, class M>
   void material(Ensemble<P>& ensemble, M const& material) {
     static_assert(std::is_base_of_v<Smooth<P::dimension>, P>, "a smooth particle is of a class derived from Smooth");
@@ -65,7 +64,7 @@ class SmoothScheme final : public Scheme {
     add_material(ensemble, material_kernels<P>(material), std::make_shared<M>(material));
   }
 
-  /// A force from outside on all particles of an ensemble: law(p) or law(p, time) is a force or an Interaction.
+  /// Adds an external force on all particles of an ensemble: law(p) or law(p, time) returns a force or an Interaction.
   template <class P, class Law>
   void external(Ensemble<P>& ensemble, Law const& law) {
     static_assert(ExternalLaw<Law, P>, "an external law is a function law(p) or law(p, time) of a particle");
@@ -74,7 +73,7 @@ class SmoothScheme final : public Scheme {
                  !std::is_empty_v<Law> && !std::is_aggregate_v<Law>);
   }
 
-  // How the continuum is calculated: at any time before the first calculation, in any order.
+  // Options of the calculation. Set them at any time before the first calculation, in any order.
   void density_from(DensityFrom from) {
     density_from_ = from;
     changed();
@@ -84,22 +83,23 @@ class SmoothScheme final : public Scheme {
     changed();
   }
   void heating(Heating heating);
-  /// Error if alpha or beta is negative.
+  /// Throws Error if alpha or beta is negative.
   void artificial_viscosity(ArtificialViscosity const& viscosity);
-  /// Lets ranges vary and sets them for the state as it stands. From then on they evolve with the density. Ensembles
-  /// are to be added before; densities are summed. Error if they can't be found.
+  /// Enables variable ranges and sets them for the current state. From then on they evolve with the density. Add all
+  /// ensembles before; densities must be summed. Throws Error if no solution is found.
   void variable_range(VariableRange const& variable);
-  /// How far particles may move before lists are rebuilt: lists reach range + skin. Default 0.08 of the longest range.
+  /// The distance that particles may move before lists are rebuilt; lists have the range range + skin. Default: 0.08 of
+  /// the longest range.
   void skin(double length);
 
-  /// The longest step that follows sound, forces and diffusion from particle to particle: the smallest of 0.4 h / (c (1
-  /// + 0.6 alpha)), sqrt(h / acceleration) / 4 and range^2 / 32 over the diffusivity, h being the smoothing length: half
-  /// the range, or a third for the quintic spline; in solids also 0.35 spacing / shear speed, for hourglass control.
-  /// Accelerations are those of the last calculation, if there was one.
+  /// The longest time step that resolves sound, forces and diffusion between particles. It is the smallest of 0.4 h /
+  /// (c (1 + 0.6 alpha)), sqrt(h / acceleration) / 4 and range^2 / 32 over the diffusivity, with h the smoothing
+  /// length: half the range, or a third for the quintic spline. In solids also 0.35 spacing / shear speed, for
+  /// hourglass control. Accelerations are those of the last calculation, if there was one.
   double courant_step();
 
   void add_influences(double time) override;
-  /// Nothing if a law from outside reads what is not in it.
+  /// Nothing if an external law reads data outside of it.
   std::optional<std::uint64_t> revision() const override;
   void complete(double time) override;
   bool derives(AnyEnsemble const& ensemble, Field const& field) const override;
@@ -124,10 +124,10 @@ class SmoothScheme final : public Scheme {
   void restore(std::span<double const> state) override;
 
   WeightShape shape() const { return shape_; }
-  /// Error if materials that keep heat share it with some that don't; the first calculation asks, too.
+  /// Throws Error if materials with heat share it with materials without; also called by the first calculation.
   void check_heating() const;
 
-  // For code that knows classes only at run time (scenarios).
+  // For code that selects classes at run time (scenarios).
   void add_material(AnyEnsemble& ensemble, MaterialKernels const& kernels, std::shared_ptr<void const> material);
   void add_external(AnyEnsemble& ensemble, ExternalKernels const& kernels, std::shared_ptr<void const> law,
                     bool reads_outside = false);
@@ -138,12 +138,12 @@ class SmoothScheme final : public Scheme {
 
   enum class Until { state, fluxes, rates };
   struct Recipe {
-    bool own_ranges = false;  // not one range for all
+    bool own_ranges = false;  // particles have different ranges
     bool viscous = false;     // artificially
-    bool gradients = false;   // are needed
+    bool gradients = false;   // gradients are needed
     bool solids = false;      // with a shear stiffness
     bool transport = false;   // there are viscosities or conductivities
-    bool fused = false;       // the pass of rates has them
+    bool fused = false;       // the pass of rates includes them
     bool uniform = false;     // P / rho^2 is the same for all: forces need no density
     SmoothPasses const* passes = nullptr;
     PairKernel rates = nullptr;  // of the passes
@@ -160,7 +160,7 @@ class SmoothScheme final : public Scheme {
   void add_transport(Recipe const& recipe);
   Tensor<3> stress();
   void add_viscous_stress(Recipe const& recipe, std::array<ExactSum, 9>& sums);
-  /// Of each particle: its grad-h factor, and two ranges that are too short and too long.
+  /// For each particle: its grad-h factor, and lower and upper bounds of its range.
   struct RangeBracket {
     std::vector<double> factor, shorter, longer;
   };
@@ -186,15 +186,15 @@ class SmoothScheme final : public Scheme {
   ArtificialViscosity viscosity_{0, 0, false};
   PassParameters parameters_;
   std::optional<VariableRange> variable_;
-  double skin_ = -1;                     // not chosen
+  double skin_ = -1;                     // negative: default
   double longest_ = 0, shortest_ = 0;    // ranges of the particles
-  Division* division_ = nullptr;         // while a run is divided
-  bool brought_ = false;                 // for the calculation that comes
-  std::unique_ptr<AnyEnsemble> points_;  // the places of all particles, ensemble after ensemble
-  std::unique_ptr<Neighbourhood> hood_;  // of the points; none before the first calculation
+  Division* division_ = nullptr;         // set during a divided run
+  bool brought_ = false;                 // rows were exchanged for the next calculation
+  std::unique_ptr<AnyEnsemble> points_;  // the positions of all particles, ensemble after ensemble
+  std::unique_ptr<Neighbourhood> hood_;  // of the points; null before the first calculation
   std::vector<std::unique_ptr<Loaded>> loaded_;
   std::vector<std::unique_ptr<Outside>> outside_;
-  /// Of the density pass, in the order of rows.
+  /// Results of the density pass, in the order of rows.
   struct Summed {
     struct For {
       std::size_t lists = 0;     // their version
@@ -204,14 +204,14 @@ class SmoothScheme final : public Scheme {
     };
     std::vector<double> sums;
     For are_for;
-    bool hold = false;  // positions, masses and ranges are the same since
+    bool hold = false;  // positions, masses and ranges have not changed since
   } summed_;
   std::vector<double> sums_;  // of the last other pass
   std::vector<double> solid_sums_;
   std::vector<double> factors_;  // grad-h
   std::size_t calculations_ = 0, members_of_build_ = 0;
   double time_ = 0;
-  double sound_rate_ = 0;  // the largest sound speed / range, at the last calculation that asked for states
+  double sound_rate_ = 0;  // greatest sound speed / range at the last calculation that needed states
 };
 
 }  // namespace boltzmann

@@ -5,11 +5,11 @@
 //
 //   G_i = Sum_j s_ij r (v_j - v_i),   B_i = Sum_j s_ij r r,   the corrected gradient is L_i . G_i with L = 1 / B
 //
-// (Bonet and Lok, Comput. Methods Appl. Mech. Eng. 180, 97, 1999), and forces are made of L . P in place of P, so that
-// they do the work P : (L . G). L is limited where B is nearly singular, in splinters.
+// (Bonet and Lok, Comput. Methods Appl. Mech. Eng. 180, 97, 1999). Forces use L . P in place of P, so that they do the
+// work P : (L . G). L is bounded where B is nearly singular, in splinters.
 //
-// Hourglass control. Neither G nor the forces see motion that alternates from one particle to the next, so that rows of
-// a solid would slide past each other freely. The control is that of Flanagan and Belytschko (Int. J. Numer. Methods
+// Hourglass control. G and the forces vanish for motion that alternates from one particle to the next, so rows of a
+// solid would slide past each other freely. The control is that of Flanagan and Belytschko (Int. J. Numer. Methods
 // Eng. 17, 679, 1981) in its elastic form, with the neighbourhood of a particle in place of a finite element;
 // Ganzenmueller (Comput. Methods Appl. Mech. Eng. 286, 87, 2015) measures the same departure from linear motion, pair
 // by pair. With the spacing d = V^(1/D):
@@ -18,8 +18,8 @@
 //   dh_i/dt = Sum_j c_ij (v_i - v_j) + W_i . h_i - relaxation      h: the hourglass strain
 //   F_i = -Sum_j (c_ij V_i G_i h_i - c_ji V_j G_j h_j)             from the energy V G h^2 / 2, G the shear modulus
 //
-// A linear velocity field strains nothing, since Sum c r = 0; for the same reason these forces have no torque. All
-// forces conserve momentum, and their work goes into the specific energy, so that total energy is conserved.
+// A linear velocity field causes no hourglass strain, because Sum c r = 0. For the same reason these forces have no
+// torque. All forces conserve momentum. Their work is added to the specific energy, so that total energy is conserved.
 #pragma once
 
 #include <boltzmann/schemes/smooth/passes.hpp>
@@ -27,18 +27,18 @@
 namespace boltzmann {
 
 namespace detail {
-/// Up to the next block, behind SmoothMatter.
+/// Padding to the next block after SmoothMatter.
 template <int D, class Real>
 struct BehindMatter : Unread<to_next_block<sizeof(SmoothMatter<D>) / sizeof(double)>, Real> {};
 }  // namespace detail
 
-/// What strength reads of a smooth particle, behind everything else.
+/// The data of a smooth particle for strength, after all others.
 template <int D, class Real = double>
 struct SmoothSolid : SmoothMatter<D, Real>, detail::BehindMatter<D, Real> {
   Real inverse_spacing;
-  Real intact;  ///< as a neighbour in hourglass control: 1 whole, 0 broken or without a shear modulus
+  Real intact;  ///< weight as a neighbour in hourglass control: 1 intact, 0 broken or without a shear modulus
   Real volume;
-  Vector<D, Real> middle_velocity;  ///< of the half step, for strain
+  Vector<D, Real> middle_velocity;  ///< at the half step, for strain
   Real unread_here[(8 - 3 - D)];
   Vector<D, Real> moment;      ///< V G h, times a
   Vector<D, Real> tilt;        ///< b
@@ -60,23 +60,23 @@ template <int D, class Real>
 SolidSum(Tensor<D, Real>, Tensor<D, Real>, Real, Vector<D, Real>, Vector<D, Real>, Tensor<D, Real>, Tensor<D, Real>)
     -> SolidSum<D, Real>;
 
-/// phi(x) = (1 - x / reach)^4, and a. Both are chosen so that plane shear waves in which neighbouring planes of
-/// particles move against each other have the frequency sqrt(G / rho) k, for the square, hexagonal, simple cubic and
-/// face-centred cubic lattice at once. The guide has the deviations.
+/// phi(x) = (1 - x / reach)^4, and a. Both are chosen so that plane shear waves in which adjacent planes of particles
+/// move against each other have the frequency sqrt(G / rho) k, for the square, hexagonal, simple cubic and face-centred
+/// cubic lattice at once. The guide lists the deviations.
 struct HourglassStencil {
   template <int D>
   static constexpr double reach = D == 2 ? 2.35 : 2.45;  ///< in spacings
   template <int D>
   static constexpr double scale = D == 2 ? 4.846 : 2.778;
-  /// Above the largest sum of phi over the neighbours in a lattice. More of it is scaled down to it, so that the
-  /// control is not stiffer where particles are crowded.
+  /// An upper bound of the sum of phi over the neighbours in a lattice. Larger sums are scaled down to it, so that the
+  /// control is not stiffer for crowded particles.
   template <int D>
   static constexpr double crowd = D == 2 ? 0.6 : 1.3;
 };
 
 namespace detail {
 
-/// phi of q as p weighs it, divided by p's spacing; zero for fluids and what is broken.
+/// phi of q with the weight of p, divided by p's spacing; zero for fluids and broken particles.
 template <class P, class Real>
 [[gnu::always_inline]] inline Real hourglass_weight(P const& p, P const& q, Real const& distance) {
   Real const u = max(Real(1.0 - distance * p.inverse_spacing * (1 / HourglassStencil::reach<P::dimension>)), Real(0.0)),
@@ -106,7 +106,7 @@ struct SolidSumPass {
 template <int D, class Real>
 struct SolidForce {
   Vector<D, Real> force;  ///< on p
-  Real heating;           ///< of p: what its strain takes out of the motion
+  Real heating;           ///< of p: energy that its strain removes from the motion
 };
 template <int D, class Real>
 SolidForce(Vector<D, Real>, Real) -> SolidForce<D, Real>;

@@ -1,4 +1,4 @@
-// Viscosity and conduction: when their passes are made, and the stress that they add to the pressure.
+// Viscosity and conduction: selection of their passes, and their contribution to the stress.
 #include <boltzmann/core/exact_sum.hpp>
 #include <boltzmann/schemes/smooth/loaded.hpp>
 #include <boltzmann/schemes/smooth/transport_passes.hpp>
@@ -7,7 +7,7 @@ namespace boltzmann {
 
 using namespace detail;
 
-/// The local motion of each particle, into the blocks of transport.
+/// Computes the local motion of each particle, into the blocks of transport.
 void SmoothScheme::find_motion(Recipe const& recipe, SortedCopy& copy) {
   std::size_t const first = copy.blocks() + 1, last = first + transport_blocks(box().dimension());
   std::size_t const components =
@@ -31,7 +31,7 @@ void SmoothScheme::add_viscous_stress(Recipe const& recipe, std::array<ExactSum,
   auto const D = static_cast<std::size_t>(box().dimension()), components = D * (D + 1) / 2;
   run_pass(recipe.transport_passes->stress, components, sums_);
   SortedCopy const& copy = hood_->copy(*points_);
-  std::size_t const block = copy.blocks() + 1;  // begins with the volume
+  std::size_t const block = copy.blocks() + 1;  // starts with the volume
   hood_->over_own(copy, copy.owned(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       double const* found = sums_.data() + components * k;

@@ -24,7 +24,7 @@ struct TransportKernelTable {
 template <InstructionSet set>
 TransportKernelTable const& transport_kernels();
 
-/// The table in the instruction set in use.
+/// The table for the selected instruction set.
 TransportKernelTable const& transport_kernels();
 
 }  // namespace boltzmann

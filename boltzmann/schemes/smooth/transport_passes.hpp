@@ -7,9 +7,10 @@
 //   V_i Phi_i = V_i {2 c_i Sum_j V_j K eta_ij [|v - W_i r|^2 - (1 - s) |v - G_i r|^2] + (zeta_i - 2 eta_i / D) d_i^2},
 //   d_i = c_i Sum_j V_j K r.v (div v),   c_i = D / Sum_j V_j K r^2,   W_i, G_i: the minima of their sums.
 // In a linear flow this is 2 eta E:E + (zeta - 2 eta / D) (div v)^2 wherever second moments are isotropic: on lattices
-// exactly. The rest is damped by the share s. With s = 1 neighbours alone count; in a disordered fluid that damps the
-// noise in their velocities, too, which the flow has to feed: it is too viscous. With s = 0 rows that alternate would not
-// be damped at all, which is the null mode of nested gradients. docs/guide/continuum.md has figures for several s.
+// exactly. The rest is damped by the share s. With s = 1 only relative velocities count. In a disordered fluid this
+// also damps their noise, which draws energy from the flow, so that the fluid is too viscous. With s = 0 alternating
+// rows would not be damped at all: the null mode of nested gradients. docs/guide/continuum.md has figures for several
+// s.
 // Forces are the derivatives of Rayleigh's dissipation function, F_i = -d/dv_i Sum_k V_k Phi_k / 2:
 //   F_ij = V_i V_j K {2 eta_ij [c_i (s v - M_i r) + c_j (s v - M_j r)] + (b_i + b_j) r},
 //   M_i = W_i - (1 - s) G_i,   b_i = c_i (zeta_i - 2 eta_i / D) d_i.
@@ -29,11 +30,11 @@
 
 namespace boltzmann {
 
-/// s, chosen as small as fast damping of the shortest waves allows: at 0.27 of their rate in a continuum on a square lattice
+/// s, as small as fast damping of the shortest waves allows: at 0.27 of their rate in a continuum on a square lattice
 /// with ranges of 3 spacings.
 inline constexpr double rest_share = 0.5;
 
-/// The sums from which a particle's local motion follows, w = V_j K eta_ij.
+/// The sums that determine a particle's local motion, w = V_j K eta_ij.
 template <int D, class Real>
 struct MotionSum {
   Real approach;            ///< Sum V_j K r.v
@@ -44,12 +45,12 @@ struct MotionSum {
 };
 template <int D, class Real>
 struct TransportSum {
-  Vector<D, Real> force;  ///< by volume
-  Real heating;           ///< likewise
+  Vector<D, Real> force;  ///< per volume
+  Real heating;           ///< per volume
 };
 template <int D, class Real>
 TransportSum(Vector<D, Real>, Real) -> TransportSum<D, Real>;
-/// Sum r_a F_b, symmetric part: xx, xy, xz, yy, yz, zz; F by volume.
+/// Sum r_a F_b, symmetric part: xx, xy, xz, yy, yz, zz; F per volume.
 template <int D, class Real>
 struct StressSum {
   Real stress[D * (D + 1) / 2];
@@ -57,8 +58,8 @@ struct StressSum {
 
 namespace detail {
 
-/// K = norm (1 - r^2 / range^2)^4 / range^(D + 2), without a root. Weights of the shape of the scheme, w'/r, would have
-/// second moments that depend more on the lattice.
+/// K = norm (1 - r^2 / range^2)^4 / range^(D + 2), without a square root. Weights of the scheme's shape, w'/r, would
+/// have second moments that depend more on the lattice.
 template <int D>
 inline constexpr double transport_norm = D == 1   ? 3465.0 / 256
                                          : D == 2 ? 60 / std::numbers::pi
@@ -71,7 +72,7 @@ template <int D, class Real>
   return norm * u2 * u2;
 }
 
-/// V_j K of a pair, the same for both but for the volume.
+/// V_j K of a pair; equal for both except for the volume.
 template <bool variable, class P>
 [[gnu::always_inline]] inline auto transport_weight(P const& p, P const& q, decltype(P::range) const& r2,
                                                     PassParameters const& parameters) {
@@ -86,9 +87,9 @@ template <bool variable, class P>
 
 template <int D, class Real>
 struct ViscousPair {
-  Vector<D, Real> force;  ///< on p, by its volume
-  Real heating;           ///< p's own part of the work, likewise
-  Real conduction;        ///< heat by difference of temperatures
+  Vector<D, Real> force;  ///< on p, per volume
+  Real heating;           ///< p's own part of the work, per volume
+  Real conduction;        ///< heat due to the difference of temperatures
 };
 
 template <bool variable, class P>
@@ -97,7 +98,7 @@ template <bool variable, class P>
   constexpr int D = P::dimension;
   auto const r = q.position - p.position, v = q.velocity - p.velocity;
   Real const weight = transport_weight<variable>(p, q, dot(r, r), parameters);
-  // Twice the harmonic means, 4 / (sum of inverses), by one division.
+  // Twice the harmonic means, 4 / (sum of inverses), with a single division.
   Real const against_shear = p.inverse_viscosity + q.inverse_viscosity,
              against_heat = p.inverse_conductivity + q.inverse_conductivity,
              both = 4.0 / (against_shear * against_heat), drag = both * against_heat;

@@ -1,4 +1,4 @@
-// Finding ranges that fit the densities which they make.
+// Finds ranges consistent with the densities that they give.
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/schemes/smooth/loaded.hpp>
 
@@ -12,10 +12,10 @@ namespace boltzmann {
 using namespace detail;
 
 namespace {
-constexpr double precision = 1e-12;  // of ranges, to which they are found
+constexpr double precision = 1e-12;  // relative accuracy of ranges
 }
 
-/// The ranges of the next iteration; the largest relative change.
+/// Computes the ranges of the next iteration. Returns the largest relative change.
 double SmoothScheme::new_ranges(RangeBracket& bracket) {
   double largest_change = 0;
   in_dimension(box().dimension(), [&](auto d) {
@@ -57,8 +57,8 @@ void SmoothScheme::variable_range(VariableRange const& variable) {
                             variable.shortest));
   hood_.reset();
   changed();
-  // range = spacings (mass / density(range))^(1/D): Newton's iteration for each, whose steps the grad-h factor gives,
-  // between two ranges that are too short and too long: density range^D grows with the range.
+  // Solves range = spacings (mass / density(range))^(1/D) by Newton's iteration for each particle, with the derivative
+  // from the grad-h factor, bracketed by a lower and an upper bound. Density range^D grows with the range.
   constexpr int max_iterations = 200;
   RangeBracket bracket{std::vector<double>(count()), std::vector<double>(count(), variable_->shortest),
                        std::vector<double>(count(), variable_->longest)};
@@ -74,7 +74,8 @@ void SmoothScheme::variable_range(VariableRange const& variable) {
                       variable.spacings, max_iterations, largest_change,
                       std::pow(loaded_.front()->task.self, 1.0 / box().dimension())));
   }
-  // A gas that becomes thin is not to end the run: no longer than lists fit between the walls, with room to overshoot.
+  // A gas that becomes thin must not end the run. So the limit is the range for which lists fit between the walls, with
+  // a margin for overshoot.
   if (variable.longest == 0) {
     take_places();
     double const room = skin_ < 0 ? square(room_to_grow) * (1 + skin_of_range) : square(room_to_grow);

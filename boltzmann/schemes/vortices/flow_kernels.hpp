@@ -1,4 +1,5 @@
-// The sums of flow_laws.hpp over all vortices, compiled for every instruction set. Private to this room and multipoles.
+// The sums of flow_laws.hpp over all vortices, compiled for every instruction set. Private to this module and
+// multipoles.
 #pragma once
 
 #include <boltzmann/core/instruction_set.hpp>
@@ -6,7 +7,7 @@
 
 namespace boltzmann {
 
-/// Rows are those of Vortex<D>. By VortexCore.
+/// Rows are those of Vortex<D>. Indexed by VortexCore.
 struct FlowKernels {
   PairKernel slopes[3];  ///< SlopedFlow at each target
   PairKernel sums[3];    ///< FlowSums

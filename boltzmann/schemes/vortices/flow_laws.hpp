@@ -1,5 +1,5 @@
-// What sums over vortices give besides velocities: slopes of the velocity at a place, and at vortices the vorticity and
-// the potentials that energies are made of. Private to this room.
+// Sums over vortices besides velocities: velocity gradients at a place, and, at vortices, the vorticity and the
+// potentials for energies. Private to this module.
 #pragma once
 
 #include <boltzmann/laws/vortex.hpp>
@@ -8,12 +8,12 @@
 
 namespace boltzmann {
 
-/// What a core adds to the laws of Biot and Savart, as its own comments say there. Of elements with different cores
-/// `core2` is what they have together.
+/// Functions of a core besides the velocity laws of Biot and Savart, where cores are documented. For elements with
+/// different cores, `core2` is their combined value.
 ///   density_2d: the vorticity of a unit circulation; stream_2d: G, with the velocity of a vortex k x grad G and
 ///   -G'= q / (2 pi r), so that G = -ln r / (2 pi) outside of the core.
-///   energy_3d: of -grad^2 grad^2 B = vorticity and G = -grad^2 B, G + B'/r and (B'' - B'/r) / r^2: what is left of the
-///   vector potential where all that has a divergence is taken out (G. S. Winckelmans and A. Leonard 1993).
+///   energy_3d: of -grad^2 grad^2 B = vorticity and G = -grad^2 B, G + B'/r and (B'' - B'/r) / r^2, the
+///   terms of the vector potential without its divergent part (G. S. Winckelmans and A. Leonard 1993).
 template <class Core>
 struct CoreSums;
 
@@ -120,8 +120,8 @@ struct CoreSums<GaussianCore> {
   static constexpr int terms = 18;
 };
 
-/// The flow at a place: in 2D velocity and vorticity, in 3D velocity and its slopes, slope[a] the gradient of component
-/// a.
+/// The flow at a place: in 2D velocity and vorticity, in 3D velocity and its gradient, slope[a] the gradient of
+/// component a.
 template <int D, class Real>
 struct SlopedFlow;
 template <class Real>
@@ -160,8 +160,8 @@ struct SlopesOf {
   }
 };
 
-/// At vortices. vorticity: of the flow, with the cores as they are; of_both: the same seen through the core of the one
-/// that asks, too; potential: what its vorticity times that is twice the energy of.
+/// At vortices. vorticity: of the flow with its cores; of_both: the same, averaged also over the core of the target;
+/// potential: its product with the vorticity is twice the energy of a vortex.
 template <int D, class Real>
 struct FlowSums;
 template <class Real>
@@ -170,7 +170,7 @@ struct FlowSums<2, Real> {
 };
 template <class Real>
 struct FlowSums<3, Real> {
-  Vector<3, Real> spread;  ///< the vorticity of the elements themselves, with whatever divergence it has
+  Vector<3, Real> spread;  ///< the vorticity of the elements themselves, including its divergence
   Vector<3, Real> vorticity, of_both, potential;
 };
 
@@ -181,7 +181,7 @@ struct SumsOf {
     auto const r = p.position - q.position;
     using Real = std::remove_cvref_t<decltype(r[0])>;
     Real const square = dot(r, r), core2 = q.core * q.core, both = core2 + p.core * p.core;
-    // Two Gaussians on each other make a Gaussian; others are seen through one core of the mean square.
+    // The convolution of two Gaussians is a Gaussian; for other cores use one core of the mean square.
     constexpr bool gaussian = std::is_same_v<Core, GaussianCore>;
     FlowSums<P::dimension, Real> sums;
     if constexpr (P::dimension == 2) {

@@ -1,4 +1,4 @@
-// Elements in rows of one class, and the sums over them.
+// Copies vortices to rows of one class, and sums over them.
 #include <boltzmann/boundaries/flow_images.hpp>
 #include <boltzmann/core/error.hpp>
 #include <boltzmann/core/exact_sum.hpp>
@@ -22,7 +22,7 @@ FlowKernels const& kernels_of_flow(int dimension) {
       [&](auto set) -> FlowKernels const& { return flow_kernels<decltype(set)::value>().of[dimension - 2]; });
 }
 
-/// Whether along this axis everything is there again and again.
+/// True if the system repeats along this axis.
 bool repeats_along(Box const& box, int axis) {
   return box.periodic(axis) || (box.boundary(axis) == Boundary::mirror && box.walled(axis, Box::End::low) &&
                                 box.walled(axis, Box::End::high));
@@ -63,7 +63,7 @@ std::unique_ptr<AnyEnsemble> places_of(std::span<double const> places) {
   return all;
 }
 
-/// What all sources make at these targets, `width` numbers for each.
+/// The sums over all sources at these targets, `width` numbers for each.
 std::vector<double> sums(PairKernel kernel, VortexLaw const& law, AnyEnsemble const& targets,
                          AnyEnsemble const& sources, std::size_t width, int threads) {
   std::vector<double> found(targets.size() * width);
@@ -190,7 +190,7 @@ std::vector<double> VortexFlow::at(std::span<double const> places) const {
   scheme.add(*elements_->rows, source_kind<Vortex<2>>());
   scheme.background(background_);
   auto const velocities = scheme.velocity_at(plane);
-  // Vorticity is where cores are: of those in the box and in the images beside it.
+  // Vorticity is nonzero only in cores: those in the box and in the images beside it.
   auto found = sums_at(places, with_images());
   for (std::size_t k = 0; k < plane.size(); ++k) found[3 * k] = velocities[k][0], found[3 * k + 1] = velocities[k][1];
   return found;
@@ -207,7 +207,7 @@ std::unique_ptr<AnyEnsemble> VortexFlow::with_images() const {
     for (int a = 0; a < dimension_; ++a)
       if (double& x = rows[first + static_cast<std::size_t>(a)]; box_.periodic(a))
         x -= box_.length(a) * std::floor((x - box_.low(a)) / box_.length(a));
-  // Once more on both sides of what repeats.
+  // Add one more period on both sides of a repeating axis.
   for (int a = 0; a < dimension_; ++a) {
     if (!repeats_along(box_, a)) continue;
     double const period = box_.length(a) * (box_.periodic(a) ? 1 : 2);

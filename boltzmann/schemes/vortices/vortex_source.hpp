@@ -1,4 +1,4 @@
-// Vortex source: an ensemble of vortices that carries others, and by which law.
+// Vortex source: an ensemble of vortices that advects others, and its law.
 #pragma once
 
 #include <boltzmann/laws/vortex.hpp>
@@ -9,8 +9,8 @@ namespace boltzmann {
 struct VortexSource {
   AnyEnsemble* ensemble;
   VortexLaw law;
-  double tolerance = 0;     ///< of multipoles; 0: by pairs
-  bool background = false;  ///< vorticity that is spread over a periodic plane, so that all cancels
+  double tolerance = 0;     ///< of multipoles; 0: sums over pairs
+  bool background = false;  ///< vorticity is spread over a periodic plane, so that the total is zero
 };
 
 }  // namespace boltzmann

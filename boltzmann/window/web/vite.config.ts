@@ -1,6 +1,6 @@
-// Makes one file of the page, ../page.html: the script and the style stand in it, so that nothing is fetched at run time,
-// the digest of its source, by which tests/window/page_test.cpp sees whether it is fresh, and that of its script, by which a
-// browser that is given the page as a file knows it (../replay_page.cpp).
+// Builds the page as a single file, ../page.html, with script and style embedded, so that nothing is loaded at run
+// time. It includes the digest of its source, by which tests/window/page_test.cpp checks that it is up to date, and
+// that of its script, by which a browser accepts the script if the page is opened as a file (../replay_page.cpp).
 import { createHash } from "node:crypto";
 import { readdirSync, readFileSync } from "node:fs";
 import { join } from "node:path";
@@ -9,7 +9,7 @@ import { defineConfig, type Plugin } from "vite";
 
 const here = fileURLToPath(new URL(".", import.meta.url));
 
-/** All files under a folder but hidden ones and an editor's copies, as paths from here with "/". */
+/** All files under a folder except hidden ones and editor backups, as paths from here with "/". */
 function filesUnder(folder: string): string[] {
   return readdirSync(join(here, folder), { withFileTypes: true })
     .filter((entry) => !entry.name.startsWith(".") && !entry.name.endsWith("~"))
@@ -27,7 +27,7 @@ function digest(): string {
   return sum.toString(16).padStart(16, "0");
 }
 
-/** Puts the script and the style into the page, and leaves the page alone. */
+/** Embeds the script and the style in the page. */
 function oneFile(): Plugin {
   return {
     name: "one-file",
@@ -37,7 +37,7 @@ function oneFile(): Plugin {
       const page = bundle["index.html"];
       if (page?.type !== "asset") throw new Error("there is no index.html in what was built");
       let html = page.source.toString();
-      // The licence of what the page contains goes with it; minifying takes the comments that had it.
+      // The page must include the licence of its libraries; minifying removes the comments with it.
       const licence = readFileSync(join(here, "node_modules/uplot/LICENSE"), "utf8").trim();
       html = html.replace("<head>", () => `<head>\n<meta name="boltzmann-source" content="${digest()}">`);
       html = html.replace("</head>", () => `<!-- uPlot is in this page:\n${licence}\n-->\n</head>`);

@@ -1,4 +1,4 @@
-// Everything that a user can do, once: from this table come the buttons of the bar, the keys, and the help.
+// All actions of the user, defined once. The buttons of the bar, the keys, and the help are generated from this table.
 import type { IconName } from "./elements";
 import type { Pane } from "./pane";
 import { most_panes, type Panes } from "./panes";
@@ -8,19 +8,19 @@ import { savePicture } from "./saving";
 
 export interface Action {
   id: string;
-  /** On a button, and before the help. */
+  /** The label of the button and of the help. */
   words: string;
   help: string;
-  /** As KeyboardEvent.key says them; the first is shown. */
+  /** As in KeyboardEvent.key; the first is shown. */
   keys: string[];
-  /** On the bar. */
+  /** For a button on the bar. */
   icon?: IconName;
-  /** Why it can't be done now; empty: it can. */
+  /** Why it is disabled; empty if it is enabled. */
   why?: () => string;
   run: (key?: string) => void;
 }
 
-/** What stands in front of the page, and is shown or put away. */
+/** Elements in front of the page that can be shown and hidden. */
 export interface Parts {
   panel: { toggle(): void; close(): boolean };
   card: { close(): boolean };
@@ -34,7 +34,7 @@ export interface Actions {
   run(id: string): void;
 }
 
-/** The next of a circle of words. */
+/** The next element of a cyclic list. */
 export function after<T>(all: readonly T[], one: T, way = 1): T {
   return all[(all.indexOf(one) + way + all.length) % all.length];
 }
@@ -48,7 +48,7 @@ export function makeActions(session: Session, panes: Panes, parts: Parts): Actio
   const able = () =>
     ended() || (state() === "failed" ? "the physics has failed, as the line below the panes says" : "");
   const can = (what: "rewind" | "checkpoint" | "quit") => () => linked() || (session.hello?.can[what] ?? "");
-  // A key that is held repeats faster than a window may answer: what is owed goes with the next message.
+  // A key that is held repeats faster than a window may answer: pending repeats are sent with the next message.
   let owed = 0;
   let stepping = false;
   const frames = async (n: number) => {

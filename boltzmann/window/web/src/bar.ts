@@ -1,4 +1,4 @@
-// The bar of buttons, as in 1990: PLAY STEP REWD STOP QUIT POPUP, and at the right the step at which the results are.
+// The bar of buttons, as in 1990: PLAY STEP REWD STOP QUIT POPUP, and at the right the current step.
 import type { Action, Actions } from "./actions";
 import { h, icon, iconButton, roughly } from "./elements";
 import type { Session } from "./session";
@@ -100,7 +100,7 @@ function button(action: Action, actions: Actions): HTMLButtonElement {
       type: "button",
       id: action.id,
       click: (event: MouseEvent) => {
-        // The space bar then plays and stops, instead of pressing this button once more.
+        // So that the space bar plays and stops, instead of pressing this button again.
         if (event.detail > 0) element.blur();
         actions.run(action.id);
       },

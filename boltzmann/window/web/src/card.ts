@@ -1,4 +1,4 @@
-// The selected particle: a card with its fields, as they are at this step.
+// The selected particle: a card with its fields at the current step.
 import { h, iconButton } from "./elements";
 import type { Update } from "./protocol";
 import type { Session } from "./session";
@@ -32,7 +32,7 @@ export class Card {
     session.on("hello", () => (this.closed = false));
   }
 
-  /** False if it was not open. */
+  /** Returns false if it was not open. */
   close(): boolean {
     if (this.element.hidden) return false;
     this.element.hidden = true;
@@ -49,7 +49,7 @@ export class Card {
       return;
     }
     const name = `${selected.ensemble} ${selected.particle}`;
-    if (this.closed && name === this.element.dataset.particle) return; // an update that was under way
+    if (this.closed && name === this.element.dataset.particle) return; // a pending update
     this.closed = false;
     this.element.hidden = false;
     this.element.dataset.particle = name;

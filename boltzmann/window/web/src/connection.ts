@@ -1,12 +1,15 @@
-// The socket to the window: opens it with the token of the page's address, asks for one update at a time, opens it
-// again when it breaks.
+// The socket to the window: opens it with the token of the page's address, requests one update at a time, reconnects
+// when it breaks.
 import { decode, type Bye, type Hello, type Message, type Reply, type Update } from "./protocol";
 
 export interface ConnectionEvents {
   hello(hello: Hello): void;
   update(update: Update): void;
   bye(bye: Bye): void;
-  /** The socket is open; or it broke and is tried again in so many seconds (0: now); or a message was damaged. */
+  /**
+   * Events: the socket is open; it broke and will be reopened in this number of seconds (0: now); a message was
+   * damaged.
+   */
   opened(): void;
   broken(seconds: number, attempt: number, reason: string): void;
   damaged(error: string): void;
@@ -14,14 +17,14 @@ export interface ConnectionEvents {
 
 export type Words = { do: string; [more: string]: unknown };
 
-/** Who answers a page: a window behind a socket, or a recording in the page. */
+/** The backend of a page: a window behind a socket, or a recording in the page. */
 export interface Link {
   readonly connected: boolean;
-  /** Says something and waits for the answer; an error in it is a "no", or that there is nobody. */
+  /** Sends a request and waits for the reply. An error in it is a refusal, or there is no connection. */
   say(words: Words): Promise<Reply>;
-  /** Asks for the next update, with so many rows of the table of this number known; nothing if one is under way. */
+  /** Requests the next update; `rows` of the table `table` are known. No-op if a request is pending. */
   next(rows: number, table: number): void;
-  /** Tries to connect now instead of after a pause. */
+  /** Reconnects now instead of after a pause. */
   retry(): void;
 }
 

@@ -1,9 +1,9 @@
-// What asks or tells in front of the page: QUIT's question and the list of keys.
+// Dialogs in front of the page: the confirmation of QUIT and the list of keys.
 import type { Action } from "./actions";
 import { h, icon } from "./elements";
 import type { Session } from "./session";
 
-/** The question before a simulation is ended. */
+/** The confirmation before a simulation is ended. */
 export function makeQuit(session: Session) {
   const watching = h("p", {});
   const dialog = h(
@@ -45,7 +45,7 @@ export function makeQuit(session: Session) {
 
 const names: Record<string, string> = { " ": "Space", Escape: "Esc" };
 
-/** All keys. */
+/** The list of all keys. */
 export function makeHelp(actions: () => Action[]) {
   const list = h("dl", { class: "keys" });
   const dialog = h(

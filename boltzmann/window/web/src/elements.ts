@@ -1,9 +1,9 @@
-// Elements of the page made in one expression, and the icons of its buttons.
+// Creates elements of the page in one expression, and the icons of its buttons.
 
 export type Child = Node | string | null | false;
 type Attributes = Record<string, string | number | boolean | ((event: never) => void)>;
 
-/** An element with attributes (functions: listeners, true: present, false: left out) and children (null: left out). */
+/** An element with attributes (functions: listeners, true: present, false: omitted) and children (null: omitted). */
 export function h<K extends keyof HTMLElementTagNameMap>(
   tag: K,
   attributes: Attributes = {},
@@ -18,7 +18,7 @@ export function h<K extends keyof HTMLElementTagNameMap>(
   return element;
 }
 
-/** New children in place of those before. */
+/** Replaces the children of an element. */
 export function fill(element: Element, ...children: Child[]): void {
   element.replaceChildren(...given(children));
 }
@@ -27,7 +27,7 @@ function given(children: Child[]): (Node | string)[] {
   return children.filter((child): child is Node | string => child !== null && child !== false);
 }
 
-// Paths on a board of 16 x 16; filled, but those that begin with "~", which are drawn as lines.
+// Paths on a grid of 16 x 16; filled, except those that begin with "~", which are stroked.
 const paths = {
   play: "M4 2.5v11l9.5-5.5z",
   step: "M3 2.5v11l7-5.5zM11.5 2.5h2v11h-2z",
@@ -61,7 +61,7 @@ export function icon(name: IconName): SVGSVGElement {
   return svg;
 }
 
-/** A button with an icon alone; its words are its name and its tip. */
+/** A button with only an icon; the text is its accessible name and tooltip. */
 export function iconButton(name: IconName, words: string, press: () => void, more: Attributes = {}): HTMLButtonElement {
   return h(
     "button",
@@ -70,17 +70,17 @@ export function iconButton(name: IconName, words: string, press: () => void, mor
   );
 }
 
-/** Gives the browser a file to keep. */
+/** Offers a file for download. */
 export function download(name: string, content: Blob): void {
   const address = URL.createObjectURL(content);
   h("a", { href: address, download: name }).click();
   setTimeout(() => URL.revokeObjectURL(address), 60_000);
 }
 
-/** For this browser, or until this page is closed. */
+/** Permanently in this browser, or until this page is closed. */
 type Keeping = "localStorage" | "sessionStorage";
 
-/** What the user has chosen before; nothing where the browser keeps nothing. */
+/** A stored choice of the user; nothing if the browser stores nothing. */
 export function remembered(key: string, where: Keeping = "localStorage"): string | null {
   try {
     return window[where].getItem(`boltzmann.${key}`);
@@ -92,11 +92,11 @@ export function remember(key: string, value: string, where: Keeping = "localStor
   try {
     window[where].setItem(`boltzmann.${key}`, value);
   } catch {
-    // A browser that keeps nothing: the choice holds until the page is closed.
+    // If the browser stores nothing, the choice is valid until the page is closed.
   }
 }
 
-/** 51234.5 as "51,000": two digits and the size, no more than one can read while it changes. */
+/** 51234.5 as "51,000": two significant digits, as many as can be read while the number changes. */
 export function roughly(value: number): string {
   if (!(value > 0)) return "0";
   const digits = value < 10 ? 1 : 0;

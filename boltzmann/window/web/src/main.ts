@@ -1,4 +1,4 @@
-// The page of the window: puts its parts together and shows a simulation, a stored run, or the gallery.
+// The page of the window: assembles its parts and shows a simulation, a stored run, or the gallery.
 import { makeActions, type Actions } from "./actions";
 import { makeBar } from "./bar";
 import { Card } from "./card";

@@ -1,4 +1,4 @@
-// A movie of a pane's canvas, made by the browser and saved as .webm.
+// A movie of a pane's canvas, recorded by the browser and saved as .webm.
 import { download } from "./elements";
 
 const kinds = ["video/webm;codecs=vp9", "video/webm;codecs=vp8", "video/webm"];
@@ -12,7 +12,7 @@ export class Movie {
     return this.recorder !== null;
   }
 
-  /** Begins; or says why it can't. */
+  /** Starts recording; reports why it can't. */
   start(canvas: HTMLCanvasElement | null, name: string): string | null {
     if (!canvas) return "There is nothing to record in this pane yet.";
     const kind = "MediaRecorder" in window ? kinds.find((each) => MediaRecorder.isTypeSupported(each)) : undefined;

@@ -1,4 +1,4 @@
-// The message line: what went wrong or should be known, one line for each matter, until it is over or put away.
+// The message line: errors and notes, one line per matter, until they are resolved or dismissed.
 import { h, iconButton } from "./elements";
 
 export type Matter = "link" | "run" | "missed" | "reply";
@@ -9,7 +9,7 @@ const signs: Record<Kind, string> = { info: "", warning: "Note", error: "Error" 
 export class Notices {
   readonly element = h("footer", { id: "notices", role: "status", "aria-live": "polite" });
   private readonly lines = new Map<Matter, { text: string; line: HTMLElement }>();
-  /** What was put away: the same words don't come back until others have been said. */
+  /** Dismissed messages: the same text is not shown again until the matter has another one. */
   private readonly away = new Map<Matter, string>();
 
   set(matter: Matter, text: string, kind: Kind = "info", button?: { words: string; press: () => void }): void {
@@ -28,7 +28,7 @@ export class Notices {
     this.element.append(line);
   }
 
-  /** As if it had been put away. */
+  /** Dismisses a message. */
   putAway(matter: Matter): void {
     const said = this.lines.get(matter);
     if (!said) return;

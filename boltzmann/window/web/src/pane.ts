@@ -1,4 +1,4 @@
-// One pane: a diagnosis, what the user changed of it, and the painter or the plot that shows it.
+// One pane: a diagnosis, the user's changes to it, and the painter or the plot that shows it.
 import { h, iconButton } from "./elements";
 import { Painter } from "./paint/painter";
 import { TablePlot } from "./plot";
@@ -6,23 +6,23 @@ import type { Canvas, Diagnosis, Update, View } from "./protocol";
 import { Movie } from "./movie";
 import type { Session } from "./session";
 
-/** What the user can change of a diagnosis. */
+/** The properties of a diagnosis that the user can change. */
 export type ViewChanges = Omit<View, "id" | "diagnosis" | "most" | "region" | "azimuth" | "elevation">;
 
-/** What a pane tells the ones around it. */
+/** Events of a pane. */
 export interface PaneEvents {
-  /** What the window should send for it is another now. */
+  /** The view to be sent by the window has changed. */
   changed(): void;
   activated(pane: Pane): void;
   closed(pane: Pane): void;
   saved(pane: Pane): void;
-  /** A movie begins or ends. */
+  /** A movie starts or ends. */
   recorded(): void;
 }
 
-const slow = 80; // milliseconds of a paint, three times in a row
-const quick = 12; // milliseconds of a paint, a hundred times in a row
-const pause = 150; // milliseconds without a move before another part is asked for
+const slow = 80; // milliseconds per paint, three times in a row
+const quick = 12; // milliseconds per paint, a hundred times in a row
+const pause = 150; // milliseconds without movement before another region is requested
 
 export class Pane {
   readonly element: HTMLElement;
@@ -90,7 +90,7 @@ export class Pane {
     this.greet();
   }
 
-  /** The window says what there is to show. */
+  /** Called when the window has sent its list of diagnoses. */
   greet(): void {
     const names = this.session.hello?.diagnoses.map(({ name }) => name) ?? [];
     this.chooser.replaceChildren(...names.map((name) => h("option", { value: name }, name)));
@@ -111,18 +111,18 @@ export class Pane {
     return this.own.drawing ?? "";
   }
 
-  /** A picture much wider than high, in equal units: it wants a row of its own. */
+  /** True for a picture much wider than high with equal scales: it needs a row of its own. */
   get wide(): boolean {
     const { x, y, z, equal_aspect } = this.canvas ?? {};
     return !!x && !!y && !z && !!equal_aspect && x.high - x.low > 2.2 * (y.high - y.low);
   }
 
-  /** The one canvas that has everything of the pane on it. */
+  /** The single canvas with the whole contents of the pane. */
   get picture(): HTMLCanvasElement | null {
     return this.painter?.element ?? this.plot?.element ?? null;
   }
 
-  /** Another diagnosis. */
+  /** Shows another diagnosis. */
   show(diagnosis: string): void {
     this.diagnosis = diagnosis;
     this.changes = {};
@@ -133,9 +133,9 @@ export class Pane {
     this.events.changed();
   }
 
-  /** Changes something of the diagnosis; undefined: as the diagnosis has it. */
+  /** Changes properties of the diagnosis; undefined restores the default. */
   change(changes: ViewChanges): void {
-    // The ends were those of another quantity.
+    // The ends belong to another quantity.
     if ("colour" in changes) changes = { low: undefined, high: undefined, ...changes };
     if ("y" in changes) {
       const end = changes.y === this.own.y ? undefined : null;
@@ -146,12 +146,12 @@ export class Pane {
     this.events.changed();
   }
 
-  /** The diagnosis as the scenario or the program has set it. */
+  /** The diagnosis as defined by the scenario or the program. */
   get own(): Partial<Diagnosis> {
     return this.session.hello?.diagnoses.find(({ name }) => name === this.diagnosis) ?? {};
   }
 
-  /** As the user has changed it, or as the diagnosis has it. */
+  /** The user's value, or the default of the diagnosis. */
   has<K extends keyof ViewChanges>(key: K): ViewChanges[K] {
     const { changes, own } = this;
     if (changes[key] !== undefined) return changes[key];
@@ -159,14 +159,14 @@ export class Pane {
     return end && (changes.colour ?? own.colour) !== own.colour ? undefined : own[key];
   }
 
-  /** What the window should send. */
+  /** The view to be sent by the window. */
   view(): View {
     const view: View = { id: this.id, diagnosis: this.diagnosis, ...this.changes, most: this.most };
     if (this.region) view.region = this.region;
     return view;
   }
 
-  /** The same as it is looked at now, with all particles: for a picture. */
+  /** The same with the current camera and all particles: for a picture. */
   viewAsSeen(): View {
     const view: View = { id: this.id, diagnosis: this.diagnosis, ...this.changes };
     const seen = this.painter?.ranges();
@@ -185,7 +185,7 @@ export class Pane {
     this.moved();
   }
 
-  /** Tracks, following and colours of the page as chosen now. */
+  /** Applies the selected options of the page: tracks, following and colours. */
   choose(): void {
     this.painter?.theme(this.session.dark ? "dark" : "light");
     this.painter?.track(this.session.tracking);
@@ -199,7 +199,7 @@ export class Pane {
     if (mine && !this.plot) {
       this.fault.hidden = mine.error === undefined;
       this.fault.textContent = mine.error ?? "";
-      // A picture of another diagnosis would stand over the fault.
+      // Clear it, so that no picture of another diagnosis remains behind the error.
       this.board.classList.toggle("blank", mine.error !== undefined && this.canvas === null);
       if (mine.canvas) {
         this.canvas = mine.canvas;
@@ -211,7 +211,7 @@ export class Pane {
     this.find(update);
   }
 
-  /** Which of the panes this is. */
+  /** Updates the pane for its place among the others. */
   stand(active: boolean, alone: boolean): void {
     this.element.classList.toggle("active", active && !alone);
     this.close.hidden = alone;
@@ -227,7 +227,7 @@ export class Pane {
     if (fault) this.session.notices.set("reply", fault, "warning");
   }
 
-  /** What a file of this pane is called, without its ending. */
+  /** The name of a file of this pane, without its extension. */
   fileName(): string {
     const { hello, update } = this.session;
     const plain = (text: string) =>
@@ -292,7 +292,7 @@ export class Pane {
 
   private painted(canvas: Canvas): void {
     const { points, milliseconds } = this.painter?.drawn ?? { points: 0, milliseconds: 0 };
-    const again = canvas === this.paintedCanvas; // only turned or marked
+    const again = canvas === this.paintedCanvas; // only the camera or the marks have changed
     this.paintedCanvas = canvas;
     const cloud = canvas.marks.some(({ kind }) => kind === "cloud");
     this.counted(points, cloud ? "point" : "", cloud ? "points" : "", !again);
@@ -310,7 +310,7 @@ export class Pane {
     this.slowPaints = this.quickPaints = 0;
   }
 
-  /** Tells the number of what is painted; nothing where it has no name. */
+  /** Shows the number of painted elements; nothing if they have no name. */
   private counted(number: number, one: string, many: string, fresh = true): void {
     this.element.dataset.points = String(number);
     if (fresh) this.element.dataset.frames = String(++this.frames);
@@ -318,7 +318,7 @@ export class Pane {
     this.count.textContent = number && name ? `${number.toLocaleString("en-US")} ${name}` : "";
   }
 
-  /** The user has turned, moved or zoomed: soon ask for what is visible, if not all of it is here. */
+  /** The user has moved the camera: schedules a request for the visible region, unless everything is available. */
   private moved(): void {
     clearTimeout(this.moveTimer);
     this.moveTimer = window.setTimeout(() => {
@@ -329,18 +329,18 @@ export class Pane {
     }, pause);
   }
 
-  /** What is seen and a quarter around it; nothing where everything is sent anyway. */
+  /** The visible region with a margin of a quarter; nothing if everything is sent anyway. */
   private visible(): [number, number][] | undefined {
     const all = this.hello?.ensembles.reduce((sum, { size }) => sum + size, 0) ?? 0;
     const seen = this.painter?.ranges();
-    const follows = this.session.following; // what is seen moves with each frame
+    const follows = this.session.following; // the region moves with each frame
     if (!seen?.zoomed || follows || all <= this.most || !this.canvas?.marks.some(({ kind }) => kind === "cloud"))
       return undefined;
     const axes = seen.z ? [seen.x, seen.y, seen.z] : [seen.x, seen.y];
     return axes.map(([low, high]) => [low - (high - low) / 4, high + (high - low) / 4]);
   }
 
-  /** Where the selected particle is in this pane's drawing. */
+  /** Finds the selected particle in this pane's drawing. */
   private find({ selected }: Update): void {
     let place: number[] | null = null;
     for (const mark of (selected && this.canvas?.marks) || []) {
@@ -364,7 +364,7 @@ export class Pane {
     this.painter?.follow(this.session.following ? this.selectedAt : null);
   }
 
-  /** The page's bar says which simulation and step this is: a picture's title says it again only in a movie. */
+  /** The page's bar shows simulation and step, so the picture's title is needed only in a movie. */
   private head(): void {
     const title = this.hello?.title ?? "";
     this.painter?.head(this.movie.running || !title || !this.canvas?.title.startsWith(title));

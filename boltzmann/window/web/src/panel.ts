@@ -1,4 +1,4 @@
-// POPUP: the panel with what is shown and how, the steps, tracks, saving, and DONE.
+// POPUP: the panel with diagnoses and their options, the steps, tracks, saving, and DONE.
 import type { Actions } from "./actions";
 import { download, fill, h, icon, iconButton, type Child } from "./elements";
 import type { Pane, ViewChanges } from "./pane";
@@ -10,7 +10,7 @@ import type { Session, Theme } from "./session";
 
 type Key = keyof ViewChanges;
 
-/** What can be changed of a drawing, in its order. A table of diagnoses is drawn by the page. */
+/** The properties of a drawing that can be changed, in order. The page itself draws tables of diagnoses. */
 export function changeable(session: Session, drawing: string): Option[] {
   if (drawing === "table") return [{ key: "logarithmic", doc: "", words: [] }];
   return session.hello?.drawings[drawing] ?? [];
@@ -20,7 +20,7 @@ export function changeable(session: Session, drawing: string): Option[] {
 const paces = [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000];
 const speeds = [1, 2, 5, 10, 15, 20, 30, 60];
 
-/** A label and its control in one line; what is wrong with it below. */
+/** A label and its control in one line, with an error below. */
 function line(words: string, control: HTMLElement, ...more: Child[]): HTMLElement {
   return h(
     "div",
@@ -65,7 +65,7 @@ function input(
     spellcheck: "false",
     ...more,
     change: () => {
-      element.defaultValue = element.value; // no longer being typed
+      element.defaultValue = element.value; // no longer being edited
       change(element.value.trim());
     },
   });
@@ -106,10 +106,10 @@ export class Panel {
     this.element.hidden = false;
     document.body.classList.add("with-panel");
     this.refresh();
-    this.element.focus({ preventScroll: true }); // Tab goes on to its first control; keys still work
+    this.element.focus({ preventScroll: true }); // Tab moves to its first control; keys still work
   }
 
-  /** False if it was not open. */
+  /** Returns false if it was not open. */
   close(): boolean {
     if (this.element.hidden) return false;
     const inside = this.element.contains(document.activeElement);
@@ -119,7 +119,7 @@ export class Panel {
     return true;
   }
 
-  /** Builds the sections anew; who had the keyboard keeps it. */
+  /** Rebuilds the sections and preserves the keyboard focus. */
   private refresh(): void {
     if (this.element.hidden || this.panes.list.length === 0) return;
     const had = document.activeElement;

@@ -1,11 +1,11 @@
-// The panes side by side: one to six, one of them active (keys and panel are about that one).
+// The panes side by side: one to six. One of them is active: keys and panel apply to it.
 import { h, remember, remembered } from "./elements";
 import { Pane, type ViewChanges } from "./pane";
 import type { Session } from "./session";
 
 export const most_panes = 6;
 
-/** A pane as it is kept over a reload of the page. */
+/** The stored state of a pane across reloads of the page. */
 interface Kept {
   id: number;
   diagnosis: string;
@@ -32,16 +32,16 @@ export class Panes {
     });
     session.on("choice", () => {
       this.list.forEach((pane) => pane.choose());
-      this.changed(); // perhaps another limit of points
+      this.changed(); // the limit of points may have changed
     });
   }
 
-  /** Called when panes come and go, another is active or shows something else. */
+  /** Called when panes are added or removed, or another is active or shows something else. */
   onchange(listener: () => void): void {
     this.listeners.push(listener);
   }
 
-  /** Adds a pane with a diagnosis that no other shows. */
+  /** Adds a pane with a diagnosis that no other pane shows. */
   add(diagnosis = this.unseen()): void {
     if (this.list.length >= most_panes) return;
     let id = 1;
@@ -81,7 +81,7 @@ export class Panes {
     this.arrange();
   }
 
-  /** No panes: another simulation comes. */
+  /** Removes all panes, before another simulation. */
   clear(): void {
     this.list.forEach((pane) => pane.dispose());
     this.list = [];
@@ -99,7 +99,7 @@ export class Panes {
     this.changed();
   }
 
-  /** What was shown of this simulation before the page was loaded again, as far as there still is such a diagnosis. */
+  /** The stored panes of this simulation, as far as their diagnoses still exist. */
   private kept(): Kept[] {
     const names = this.session.hello?.diagnoses.map(({ name }) => name) ?? [];
     try {
@@ -121,7 +121,7 @@ export class Panes {
     return names.find((name) => !shown.includes(name)) ?? names[0] ?? "";
   }
 
-  /** Tells the window what is shown, once for all that changes at a time. */
+  /** Sends the views to the window, once for all simultaneous changes. */
   private changed(): void {
     this.arrange();
     if (this.saying || this.list.length === 0) return;

@@ -1,11 +1,11 @@
-// Measured quantities against time: curves of chosen columns of the table, one axis for each unit.
+// Measured quantities against time: curves of selected columns of the table, one axis per unit.
 import uPlot from "uplot";
 import "uplot/dist/uPlot.min.css";
 import { h } from "./elements";
 import type { Hello } from "./protocol";
 import type { Rows } from "./rows";
 
-/** A number as one writes it: 0.25, 1,200, 3.1·10⁻⁷; so many digits after the point of the leading one. */
+/** A number in conventional notation: 0.25, 1,200, 3.1·10⁻⁷; `digits` decimal places of the leading digit. */
 export function written(value: number, digits: number): string {
   if (!Number.isFinite(value)) return "–";
   if (value === 0) return "0";
@@ -21,7 +21,7 @@ export function written(value: number, digits: number): string {
   return `${mantissa}·10${raised}`;
 }
 
-/** Numbers beside ticks that are `increment` apart. */
+/** Numbers at ticks that are `increment` apart. */
 function ticks(values: (number | null)[], increment: number): string[] {
   const step = Math.floor(Math.log10(increment || 1) + 1e-9);
   return values.map((value) => {
@@ -31,7 +31,7 @@ function ticks(values: (number | null)[], increment: number): string[] {
   });
 }
 
-/** Ticks of any size; uPlot's own end at 1e16. */
+/** Ticks of any size; uPlot's own are limited to 1e16. */
 const even: Pick<uPlot.Axis, "incrs" | "splits"> = {
   incrs: (_plot, _axis, low, high) => {
     const power = Math.floor(Math.log10(high - low || 1));
@@ -45,7 +45,7 @@ const even: Pick<uPlot.Axis, "incrs" | "splits"> = {
 };
 
 export interface PlotOptions {
-  /** Columns that a diagnosis asks for, separated by commas; empty: those of the first one's unit. */
+  /** The columns of a diagnosis, comma-separated; empty: those with the unit of the first one. */
   chosen: string;
   logarithmic: boolean;
 }
@@ -89,7 +89,7 @@ export class TablePlot {
     return this.plot?.ctx.canvas ?? null;
   }
 
-  /** New rows are here. Many rows are drawn five times a second. */
+  /** Called when rows were added. Many rows are drawn five times a second. */
   show(): void {
     if (this.timer) return;
     const pause = this.rows.count > 5000 ? Math.max(0, 200 - (performance.now() - this.drawnAt)) : 0;
@@ -106,7 +106,7 @@ export class TablePlot {
     this.make();
   }
 
-  /** Other colours of paper and ink. */
+  /** Applies the colours of the theme. */
   theme(): void {
     this.make();
   }
@@ -195,7 +195,7 @@ export class TablePlot {
       if (low === null || high === null || !Number.isFinite(low) || !Number.isFinite(high))
         return distr === 3 ? [1, 10] : [0, 1];
       if (distr === 3) return [10 ** Math.floor(Math.log10(low)), 10 ** Math.ceil(Math.log10(high) || 1)];
-      // A constant is a line in the middle: its last bits are no curve.
+      // A constant is a line in the middle: rounding errors must not be magnified to a curve.
       const least = 1e-9 * Math.max(Math.abs(low), Math.abs(high));
       const margin = high - low > least ? 0.06 * (high - low) : Math.max(0.05 * Math.abs(high), least) || 1;
       return [low - margin, high + margin];
@@ -252,7 +252,7 @@ export class TablePlot {
     this.read();
   }
 
-  /** What stands along the axis of a unit: the one quantity's name, if it is one and there is room. */
+  /** The title of the axis of a unit: the name of the quantity, if it is the only one and fits. */
   private title(unit: string, height: number): string {
     const names = this.hello.columns
       .filter((column, c) => this.shown[c] && column.unit === unit)
@@ -266,7 +266,7 @@ export class TablePlot {
     const least = this.options.logarithmic ? Number.MIN_VALUE : -Infinity;
     const columns = this.hello.columns.map((_, c) => {
       const values = this.rows.column(c + 2);
-      // What is not there (or can't be drawn) is a gap.
+      // Values that are missing (or can't be drawn) are gaps.
       const whole = values.every((value) => value >= least);
       return whole ? values : Array.from(values, (value) => (value >= least ? value : null));
     });
@@ -285,7 +285,7 @@ export class TablePlot {
     this.onpaint();
   }
 
-  /** The values at the cursor, or the last ones, beside the names. */
+  /** Shows the values at the cursor, or the last ones, beside the names. */
   private read(): void {
     const at = this.plot?.cursor.idx ?? this.rows.count - 1;
     this.values.forEach((value, c) => {

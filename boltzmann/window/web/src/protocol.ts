@@ -1,4 +1,4 @@
-// The messages of protocol.md as types, and how a binary one is taken apart.
+// The messages of protocol.md as types, and the decoder of binary ones.
 
 /** An array in the payload of a binary message. */
 export interface Stored {
@@ -124,13 +124,13 @@ export interface View {
   y_range?: [number, number];
 }
 
-/** What there is to show, as the scenario or the program has set it. */
+/** An available diagnosis, as defined by the scenario or the program. */
 export interface Diagnosis extends Omit<View, "id" | "diagnosis"> {
   name: string;
   drawing: string;
 }
 
-/** What can be said of a drawing: a key of a view, what it means, and the words that it may be (none: any). */
+/** An option of a drawing: a key of a view, its description, and its allowed words (none: any). */
 export interface Option {
   key: string;
   doc: string;
@@ -146,9 +146,9 @@ export interface Quantity {
 export interface Hello {
   type: "hello";
   kind: "live" | "replay" | "gallery";
-  /** The gallery is one of stored runs. */
+  /** The gallery shows stored runs. */
   runs?: boolean;
-  /** A stored run that stands in the page: what is shown of it can't be changed. */
+  /** A stored run embedded in the page, whose views can't be changed. */
   recording?: boolean;
   title: string;
   description: string;
@@ -169,7 +169,7 @@ export interface Hello {
   diagnoses: Diagnosis[];
   drawings: Record<string, Option[]>;
   columns: { name: string; unit: string }[];
-  /** Empty: it can; otherwise why it can't. */
+  /** Empty if possible; otherwise the reason why not. */
   can: { rewind: string; step_size: string; checkpoint: string; seek: string; quit: string };
   maps: Record<string, string[]>;
   colours: string[];
@@ -184,7 +184,7 @@ export interface Update {
   planned: number;
   steps_per_second: number;
   steps_per_frame: number;
-  /** Not in a replay. */
+  /** Absent in a replay. */
   step_size?: string;
   step_size_number?: number;
   frame?: number;
@@ -221,7 +221,7 @@ function stored(value: unknown): value is Stored {
   return typeof value === "object" && value !== null && "at" in value && "count" in value && "as" in value;
 }
 
-/** The head of a binary message, with each stored array in the place of its description. Throws on a damaged one. */
+/** The header of a binary message, with stored arrays in place of their descriptions. Throws for a damaged one. */
 export function decode(bytes: ArrayBuffer): Message {
   const length = new DataView(bytes).getUint32(0, true);
   const payload = 4 + length;

@@ -1,15 +1,16 @@
-// A recording: a stored run whose frames stand in the page itself. Answers as a window would, from memory, without a socket.
+// A recording: a stored run whose frames are embedded in the page. It answers like a window, from memory, without a
+// socket.
 import type { ConnectionEvents, Link, Words } from "./connection";
 import { written } from "./plot";
 import { decode, type Axis, type Canvas, type Cloud, type Hello, type Reply, type Update, type View } from "./protocol";
 
-/** What stands in the page, as JSON: binary messages are base64. */
+/** The embedded data, as JSON; binary messages are base64. */
 interface Recorded {
   hello: Hello;
-  /** What each update shows, by the ids of its views. */
+  /** The views of each update, by id. */
   views: View[];
   message: string;
-  /** {"table": ...}; empty: nothing was measured. */
+  /** {"table": ...}; empty if there are no measurements. */
   table: string;
   updates: string[];
 }
@@ -17,7 +18,7 @@ interface Recorded {
 const fastest = 240; // frames per second
 const of_page = ["id", "diagnosis", "most", "region"]; // what a page may say of a view that can't be changed
 
-/** The text of the recording in this page; null: there is none, so there is a window. */
+/** The text of the recording in this page; null if there is none, and so a window. */
 export function recordingInPage(): string | null {
   return document.getElementById("recording")?.textContent ?? null;
 }
@@ -30,7 +31,7 @@ function amount(place: number, { label, unit, factor }: Axis): { name: string; l
   return { name: label, label, value: `${written(place * factor, 4)}${unit ? ` ${unit}` : ""}` };
 }
 
-/** The place of a particle in a cloud; -1: it is not there. */
+/** The index of a particle in a cloud; -1 if it is missing. */
 function placeIn(cloud: Cloud, particle: number): number {
   const here = cloud.numbers ? cloud.numbers.indexOf(particle) : particle;
   return here < cloud.count ? here : -1;
@@ -47,10 +48,10 @@ export class Recording implements Link {
   private due = 0;
   private timer = 0;
   private views: View[] = [];
-  /** By the id of a view: the frame that was shown last. */
+  /** By the id of a view: the last frame that was shown. */
   private readonly shown = new Map<number, number>();
   private selected: { ensemble: string; particle: number } | null = null;
-  /** The page waits for an update and has so many rows of the table. */
+  /** The pending request for an update, and the number of known rows of the table. */
   private asked: { rows: number; table: number } | null = null;
   private news = true;
 
@@ -58,7 +59,7 @@ export class Recording implements Link {
     text: string,
     private readonly events: ConnectionEvents,
   ) {
-    queueMicrotask(() => this.open(text)); // when all parts of the page listen
+    queueMicrotask(() => this.open(text)); // after all parts of the page have added listeners
   }
 
   say({ do: what, ...more }: Words): Promise<Reply> {
@@ -153,7 +154,7 @@ export class Recording implements Link {
     throw new Error(`this is a recording: particle ${particle} of '${ensemble}' is not in it`);
   }
 
-  /** Plays in a direction; 0: stands. */
+  /** Plays in a direction; 0: stops. */
   private go(direction: -1 | 0 | 1): void {
     clearTimeout(this.timer);
     this.direction = direction;
@@ -173,7 +174,7 @@ export class Recording implements Link {
     }, this.due - now);
   }
 
-  /** There is something new: an update for a page that waits for one. */
+  /** Sends an update if the page waits for one. */
   private tell(): void {
     this.news = true;
     if (this.asked) queueMicrotask(() => this.answer());
@@ -212,7 +213,7 @@ export class Recording implements Link {
     };
   }
 
-  /** What is new of a view; the page itself draws those of the table. */
+  /** The new data of a view; the page itself draws those of the table. */
   private one({ id, diagnosis }: View, update: Update): Update["views"] {
     if (this.shown.get(id) === this.frame) return [];
     this.shown.set(id, this.frame);
@@ -221,7 +222,7 @@ export class Recording implements Link {
     return found ? [{ ...found, id }] : [];
   }
 
-  /** Where the selected particle is on the axes of each picture, and its value there. */
+  /** The position of the selected particle on the axes of each picture, and its value there. */
   private told({ views }: Update): Update["selected"] {
     if (!this.selected) return null;
     const { ensemble, particle } = this.selected;

@@ -1,4 +1,4 @@
-// A stored run: the slider through its frames.
+// A stored run: the slider for its frames.
 import { h } from "./elements";
 import type { Session } from "./session";
 
@@ -8,7 +8,7 @@ export function makeReplay(session: Session): HTMLElement {
   let wanted: number | null = null;
   let held = 0;
 
-  // One question at a time: of the places passed over meanwhile only the last is asked for.
+  // One request at a time: of the intermediate positions only the last is requested.
   const seek = async (): Promise<void> => {
     if (going) return;
     going = true;

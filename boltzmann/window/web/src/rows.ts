@@ -1,14 +1,14 @@
-// The table of measured quantities as far as it is here: step, time, and one column for each.
+// The received part of the table of measured quantities: step, time, and one column per quantity.
 import type { Update } from "./protocol";
 
 export class Rows {
-  /** Of the table; -1: none yet. */
+  /** Number of the table; -1: none yet. */
   number = -1;
   count = 0;
   private columns: Float64Array[] = [];
   private ascending = true;
 
-  /** Takes new rows over what is known from row `from` on. Another number starts anew. False if rows are missing. */
+  /** Replaces the rows from `from` on. Another number starts a new table. Returns false if rows are missing. */
   take(table: NonNullable<Update["table"]>): boolean {
     const width = table.rows > 0 ? table.values.length / table.rows : this.columns.length;
     if (table.number !== this.number || (table.rows > 0 && width !== this.columns.length)) {
@@ -35,14 +35,14 @@ export class Rows {
     return true;
   }
 
-  /** Asks for the whole table again. */
+  /** Clears the table, so that it is requested again. */
   forget(): void {
     this.number = -1;
     this.count = 0;
     this.columns = [];
   }
 
-  /** Column c (0 step, 1 time, 2 the first quantity, ...), in the order of time also when the run went back. */
+  /** Column c (0 step, 1 time, 2 the first quantity, ...), sorted by time even if the run went back. */
   column(c: number): Float64Array {
     const column = (this.columns[c] ?? new Float64Array(0)).subarray(0, this.count);
     const time = this.columns[1];
@@ -51,7 +51,7 @@ export class Rows {
     return Float64Array.from(order, (k) => column[k]);
   }
 
-  /** As comma-separated values, `names` over the columns. */
+  /** As comma-separated values, with `names` as the header. */
   csv(names: string[]): string {
     const quoted = names.map((name) => (/[",\n]/.test(name) ? `"${name.replaceAll('"', '""')}"` : name));
     const lines = [quoted.join(",")];

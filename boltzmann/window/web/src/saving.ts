@@ -1,4 +1,4 @@
-// Pictures of a pane as files: drawn by the window, which also draws those of bzm render; without it, what is on the screen.
+// Pictures of a pane as files. The window draws them as bzm render does; without it, the canvas of the screen is saved.
 import { download } from "./elements";
 import type { Pane } from "./pane";
 import type { Session } from "./session";
@@ -6,7 +6,7 @@ import type { Session } from "./session";
 export interface PictureChoice {
   format: "png" | "svg" | "pdf";
   scale: number;
-  /** As the page: undefined. */
+  /** undefined: as the page. */
   dark?: boolean;
 }
 

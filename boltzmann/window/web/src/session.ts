@@ -1,4 +1,4 @@
-// What the page knows: the last words of the window, what the user has chosen, and who wants to be told of changes.
+// The state of the page: the last messages of the window, the user's choices, and the listeners for changes.
 import { Connection, type ConnectionEvents, type Link, type Words } from "./connection";
 import { remember, remembered } from "./elements";
 import type { Notices } from "./notices";
@@ -8,7 +8,7 @@ import { Rows } from "./rows";
 
 export type Theme = "light" | "dark" | "system";
 
-/** What a gallery's hello leaves out. */
+/** Default members for a gallery's hello. */
 const nothing: Hello = {
   type: "hello",
   kind: "gallery",
@@ -44,9 +44,9 @@ const most_paintable = 200_000;
 const least_paintable = 20_000;
 
 interface Changes {
-  /** What is shown became another simulation, or something about it changed. */
+  /** The simulation has changed, or one of its properties. */
   hello: Hello;
-  /** A new update is here, not yet painted. */
+  /** A new update has arrived and is not yet painted. */
   update: Update;
   /** The socket is open or not. */
   link: boolean;
@@ -59,7 +59,7 @@ export class Session {
   update: Update | null = null;
   readonly rows = new Rows();
   readonly link: Link;
-  /** The window has said goodbye. */
+  /** The window has ended the session. */
   over = false;
 
   tracking = false;
@@ -67,7 +67,7 @@ export class Session {
   theme: Theme;
   /** The user's own limit of points; 0: what the machine can paint. */
   most: number;
-  /** What the machine can paint, as far as known. */
+  /** The number of points that the machine can paint, as far as known. */
   paintable = most_paintable;
 
   private readonly listeners: { [K in keyof Changes]: ((what: Changes[K]) => void)[] } = {
@@ -117,18 +117,18 @@ export class Session {
     this.listeners[what].push(listener);
   }
 
-  /** Asks for the next update. */
+  /** Requests the next update. */
   ask(): void {
     this.link.next(this.rows.count, this.rows.number);
   }
 
-  /** What the user wants: a line that was about an earlier wish goes away. */
+  /** Sends a command of the user, and clears the error of an earlier one. */
   command(words: Words): Promise<Reply> {
     this.notices.clear("reply");
     return this.tellWindow(words);
   }
 
-  /** Says something; a "no" becomes a line of the page. */
+  /** Sends a request; a refusal is shown as a message of the page. */
   async tellWindow(words: Words): Promise<Reply> {
     const reply = await this.link.say(words);
     if (reply.error && this.link.connected) this.notices.set("reply", firstUpper(reply.error), "error");
@@ -139,7 +139,7 @@ export class Session {
     return this.theme === "dark" || (this.theme === "system" && this.darkSystem.matches);
   }
 
-  /** Keeps a choice and tells everybody. */
+  /** Stores a choice and notifies all listeners. */
   choose(choice: Partial<Pick<Session, "tracking" | "following" | "theme" | "most">>): void {
     Object.assign(this, choice);
     remember("theme", this.theme);
@@ -147,7 +147,7 @@ export class Session {
     this.chosen();
   }
 
-  /** The machine paints so many points slowly, or with ease: half, or twice as many from now on. */
+  /** Adapts the limit of points: halves it if painting is slow, doubles it if it is fast. */
   slower(points: number): void {
     const half = Math.max(least_paintable, Math.round(points / 2));
     if (points > least_paintable) this.paint(Math.min(this.paintable, half));
@@ -181,7 +181,7 @@ export class Session {
     this.rows.forget(); // another table may have the same number
     for (const matter of ["run", "missed", "reply"] as const) this.notices.clear(matter); // of what was shown before
     this.tell("hello", hello);
-    queueMicrotask(() => this.ask()); // after the panes have said what they show
+    queueMicrotask(() => this.ask()); // after the panes have sent their views
   }
 
   private updated(update: Update): void {
@@ -197,7 +197,7 @@ export class Session {
     this.painted();
   }
 
-  /** Somebody has set another step size or pace. */
+  /** Another client has set another step size or pace. */
   private paced({ steps_per_frame, step_size, step_size_number }: Update): void {
     const { hello } = this;
     if (!hello) return;
@@ -207,7 +207,7 @@ export class Session {
     this.chosen();
   }
 
-  /** Asks for the next update when this one is on the screen; a hidden page asks twice a second. */
+  /** Requests the next update when this one is on the screen; a hidden page requests two per second. */
   private painted(): void {
     let asked = false;
     const once = () => {
@@ -215,7 +215,7 @@ export class Session {
       asked = true;
       this.ask();
     };
-    if (!document.hidden) requestAnimationFrame(once); // after the panes' own
+    if (!document.hidden) requestAnimationFrame(once); // after the panes' own callbacks
     setTimeout(once, document.hidden ? 500 : 3000);
   }
 }

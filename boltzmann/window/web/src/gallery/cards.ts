@@ -1,8 +1,8 @@
-// The gallery's first page: a card for each scenario, and a search among them.
+// The gallery's first page: a card for each scenario, and a search.
 import { h } from "../elements";
 import { beginning } from "./description";
 
-/** A scenario in the answer to {"do":"scenarios"}. */
+/** A scenario in the reply to {"do":"scenarios"}. */
 export interface Entry {
   name: string;
   title: string;
@@ -28,7 +28,7 @@ export function facts({ dimension, particles, steps }: Entry): string {
     .join(" · ");
 }
 
-/** A picture of the gallery, with the token that the server asks for; a quiet square if there is none. */
+/** A picture of the gallery, with the token that the server requires; an empty square if there is none. */
 export function picture(entry: Pick<Entry, "picture">): HTMLElement {
   const frame = h("div", { class: "gallery-picture", "aria-hidden": "true" });
   if (entry.picture) {
@@ -39,7 +39,7 @@ export function picture(entry: Pick<Entry, "picture">): HTMLElement {
   return frame;
 }
 
-/** Scenarios, whose cards lead to their pages, or runs, whose cards show them. */
+/** Scenarios, whose cards open their pages, or runs, whose cards show them. */
 export interface Kind {
   one: string;
   many: string;
@@ -73,7 +73,7 @@ function card(entry: Entry, { show }: Kind): HTMLElement {
   );
 }
 
-/** The page; `search`: what was looked for before. Tells what is looked for. */
+/** The page; `search`: the previous search text. Reports changes of the search text. */
 export function cardsPage(title: string, kind: Kind, entries: Entry[], search: string, searched: (text: string) => void): HTMLElement {
   const items = entries.map((entry) => ({
     item: card(entry, kind),

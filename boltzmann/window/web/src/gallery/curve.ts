@@ -1,4 +1,4 @@
-// What a typed law says: its energy and its force over the distance, each to its own scale about zero.
+// The curves of a typed law: its energy and its force over the distance, each on its own scale about zero.
 import { h } from "../elements";
 import { written } from "../plot";
 
@@ -21,7 +21,9 @@ function svg(tag: string, attributes: Record<string, string | number>): SVGEleme
   return element;
 }
 
-/** How far up a curve is shown: cores that rise without end are cut off above what is attractive, or far out. */
+/**
+ * The upper end of the displayed range: diverging cores are cut off above the attractive part, or the values far out.
+ */
 function extent(values: (number | null)[]): number {
   const finite = values.map((value) => (value === null ? 0 : value));
   const lowest = Math.min(0, ...finite);
@@ -31,7 +33,7 @@ function extent(values: (number | null)[]): number {
   return Math.max(-lowest, lowest < 0 ? Math.min(shown, -1.5 * lowest) : shown) || 1;
 }
 
-/** A line with gaps where there is no number; what is cut off leaves at the edge. */
+/** A line with gaps for missing numbers; values beyond the range leave at the edge. */
 function line(curve: Curve, values: (number | null)[], kind: string): SVGElement {
   const end = curve.distance[curve.distance.length - 1];
   const scale = extent(values);
@@ -50,7 +52,7 @@ function line(curve: Curve, values: (number | null)[], kind: string): SVGElement
   return svg("path", { d: path, class: kind });
 }
 
-/** The place and the depth of the energy's minimum, or what the force is between neighbours. */
+/** The position and the depth of the energy's minimum, or the force between neighbours. */
 function bottom(curve: Curve): string {
   let deepest = 0;
   let at = -1;

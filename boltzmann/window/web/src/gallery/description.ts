@@ -1,7 +1,7 @@
-// The text of a scenario as paragraphs; indented lines keep their columns.
+// The text of a scenario as paragraphs; indented lines are preformatted.
 import { h } from "../elements";
 
-/** Paragraphs are divided by empty lines; a paragraph whose lines are indented is kept as it is. */
+/** Paragraphs are separated by empty lines. A paragraph of indented lines is preformatted. */
 export function paragraphs(text: string): HTMLElement[] {
   const made: HTMLElement[] = [];
   let lines: string[] = [];
@@ -27,7 +27,7 @@ export function paragraphs(text: string): HTMLElement[] {
   return made;
 }
 
-/** The first sentences, up to so many characters; a first sentence that is longer is cut between words. */
+/** The first sentences, up to this number of characters; a longer first sentence is cut between words. */
 export function beginning(text: string, most: number): string {
   const first = text.split(/\n\s*\n/)[0].replace(/\s+/g, " ").trim();
   const sentences = first.split(/(?<=[.!?])\s+(?=[A-Z(])/);

@@ -1,12 +1,12 @@
-// One parameter in the form: its input, what is allowed, what is wrong, and the way back to what the scenario has. One
-// that the scenario does not have is empty until it is set; one that is emptied is left out.
+// One parameter in the form: its input, limits, errors, and a reset to the value of the scenario. A key that the
+// scenario does not have is empty until it is set; clearing an input removes the key.
 import { h } from "../elements";
 import { drawn, type Curve } from "./curve";
 import { limits, shown, typed, wrong, type Parameter } from "./parameter";
 
 type Input = HTMLInputElement | HTMLSelectElement | HTMLTextAreaElement;
 
-const longest = 24; // letters that an input or a button has room for
+const longest = 24; // greatest number of letters of an input or a button
 
 export class Field {
   readonly element: HTMLElement;
@@ -15,7 +15,7 @@ export class Field {
   private readonly trouble: HTMLElement;
   private readonly help: HTMLElement;
   private curve: HTMLElement | null = null;
-  /** What the scenario has, as it is shown. */
+  /** The value of the scenario, as displayed. */
   readonly original: string;
   private told = "";
 
@@ -58,35 +58,35 @@ export class Field {
   get changed(): boolean {
     return this.text !== this.original;
   }
-  /** What the user has typed, as TOML; null: the key is left out. */
+  /** The user's input as TOML; null: the key is removed. */
   get toml(): string | null {
     return this.text.trim() === "" ? null : typed(this.parameter, this.text);
   }
-  /** What the page itself sees to be wrong. */
+  /** An error that the page itself detects. */
   get wrong(): string {
     return this.changed ? wrong(this.parameter, this.text) : "";
   }
   get troubled(): boolean {
     return this.wrong !== "" || this.told !== "";
   }
-  /** What the window has said about it; empty: nothing. */
+  /** The error reported by the window; empty: none. */
   tell(error: string): void {
     this.told = error;
     this.update();
   }
-  /** What it means now: another law may have given the key another meaning, other limits and units. */
+  /** Updates the description, limits and units, which may depend on the law. */
   describe({ doc, unit, units, low, high, low_excluded, otherwise }: Parameter): void {
     this.parameter = { ...this.parameter, doc, unit, units, low, high, low_excluded, otherwise };
     this.tellHint();
     this.update();
   }
-  /** What the law that is typed here says; null: it is not known. */
+  /** Shows the curve of a typed law; null: unknown. */
   draw(curve: Curve | null): void {
     this.curve?.remove();
     this.curve = curve && drawn(curve);
     if (this.curve) this.trouble.after(this.curve);
   }
-  /** As the user had it before. */
+  /** Restores the user's input. */
   restore(text: string): void {
     this.write(text);
     this.update();
@@ -95,7 +95,7 @@ export class Field {
     this.element.closest("details")?.setAttribute("open", "");
     this.input.focus();
   }
-  /** What holds without it. */
+  /** The behaviour without the key. */
   private get otherwise(): string {
     const { kind, value, otherwise } = this.parameter;
     if (kind === "boolean" && value !== "") return value === "true" ? "yes" : "no";
@@ -127,7 +127,10 @@ export class Field {
     this.input.value = text;
   }
 
-  /** The comment of the scenario, what the key means, the limits, the units, and a default that has no room in the input. */
+  /**
+   * The comment of the scenario, the description of the key, the limits, the units, and a default too long for the
+   * input.
+   */
   private hint(): string {
     const { comment, doc, units, kind } = this.parameter;
     const allowed = kind === "vector" ? "" : limits(this.parameter);

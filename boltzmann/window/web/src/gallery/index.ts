@@ -1,12 +1,12 @@
-// The gallery: every shipped scenario as a card, and the page of the one that was chosen. The name of that one stands in
-// the address, so that the browser's "back" goes back.
+// The gallery: every shipped scenario as a card, and the page of the selected one. Its name is part of the address, so
+// that the browser's "back" works.
 import { h } from "../elements";
 import type { Hello } from "../protocol";
 import { cardsPage, type Entry, type Kind } from "./cards";
 import "./gallery.css";
 import { ScenarioPage, type Edits, type Say, type Scenario } from "./scenario";
 
-// A run takes the gallery's place and gives it back when it quits: what was typed and looked for is there again.
+// State that is kept during a run, which replaces the gallery until it quits: input and search text.
 const memory = { search: "", edits: new Map<string, Edits>() };
 
 function chosen(): string {
@@ -17,7 +17,7 @@ function chosen(): string {
   }
 }
 
-/** Shows the gallery in `host`; the function that comes back takes it away. Tells when another page of it is opened. */
+/** Shows the gallery in `host`; the returned function removes it. Reports when another page of it is opened. */
 export function showGallery(host: HTMLElement, say: Say, hello: Hello, turnedPage: () => void): () => void {
   const root = h("div", { class: "gallery", "data-page": "" });
   let entries: Entry[] | null = null;
@@ -61,7 +61,7 @@ export function showGallery(host: HTMLElement, say: Say, hello: Hello, turnedPag
     }
     if (name === "") {
       put("list", cardsPage(hello.title || "Scenarios", hello.runs ? runs : scenarios, entries, memory.search, (text) => (memory.search = text)));
-      // Where the keyboard was before a scenario was opened.
+      // The card that had the focus before a scenario was opened.
       const card = before && root.querySelector<HTMLElement>(`[data-scenario="${CSS.escape(before)}"] a`);
       if (card) {
         card.scrollIntoView({ block: "center" });

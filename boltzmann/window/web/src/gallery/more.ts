@@ -1,4 +1,4 @@
-// The keys that a table of the scenario could have, too: folded away under one line, and in the file once they are set.
+// Further keys of a table of the scenario: collapsed in one line, and written to the file when they are set.
 import { h } from "../elements";
 import type { Field } from "./field";
 import type { Parameter } from "./parameter";
@@ -10,13 +10,16 @@ export class More {
   private readonly count = h("span", {});
   private readonly set = h("span", { class: "gallery-set" });
 
-  /** `within`: which table of its group; "": the group's own. */
+  /** `within`: the table of its group; "": the group's own. */
   constructor(table: string, within: string) {
     const summary = h("summary", {}, this.count, within ? h("span", {}, ` of ${within}`) : null, this.set);
     this.element = h("details", { class: "gallery-more", "data-table": table }, summary, this.list);
   }
 
-  /** Those that the table could have now. What is set stays, and nothing moves: somebody may be typing. */
+  /**
+   * Sets the keys that the table can currently have. Keys that are set stay, and nothing moves, because the user may be
+   * typing.
+   */
   offer(keys: Parameter[], make: (key: Parameter) => Field): void {
     const offered = new Set(keys.map(({ path }) => path));
     for (const field of this.fields) if (!offered.has(field.parameter.path) && !field.changed) field.element.remove();
@@ -33,7 +36,7 @@ export class More {
     this.tell();
   }
 
-  /** How many there are, and how many of them are set. */
+  /** Updates the number of keys and of those that are set. */
   tell(): void {
     const { length } = this.fields;
     const set = this.fields.filter((field) => field.changed).length;

@@ -1,17 +1,17 @@
-// A parameter of a scenario: what its field shows, what a user has typed as TOML, and what is wrong with it.
+// A parameter of a scenario: conversion between its field and TOML, and validation.
 import { elements, isNumber, quoted, scalar, unquoted } from "./toml";
 
 export interface Parameter {
-  /** As `bzm run --set` takes it: "ensembles.atoms.mass". */
+  /** As in `bzm run --set`: "ensembles.atoms.mass". */
   path: string;
   group: string;
   name: string;
   kind: "quantity" | "integer" | "number" | "word" | "boolean" | "text" | "vector" | "any";
-  /** As TOML; of a key that is absent its default, "" where `otherwise` says it. */
+  /** As TOML; for an absent key its default, or "" if `otherwise` describes it. */
   value: string;
-  /** What the simulation shows such a quantity in, and its limits here; "" for pure numbers. */
+  /** The display unit of the simulation, also of the limits here; "" for pure numbers. */
   unit: string;
-  /** Some units that it may be given in. */
+  /** Possible units. */
   units: string[];
   /** Limits in `unit`. */
   low: number | null;
@@ -20,19 +20,19 @@ export interface Parameter {
   /** Allowed words; empty: any text. */
   words: string[];
   comment: string;
-  /** What it means. */
+  /** The description. */
   doc: string;
-  /** Of a key that is absent: what holds without it. */
+  /** For an absent key: the behaviour without it. */
   otherwise: string;
 }
 
-/** The TOML value as a field shows it. */
+/** The display form of the TOML value. */
 export function shown({ kind, value }: Parameter): string {
   if (kind === "vector") return elements(value)?.join(", ") ?? value;
   return unquoted(value) ?? value;
 }
 
-/** What a user has typed, as TOML. */
+/** The user's input as TOML. */
 export function typed({ kind, value }: Parameter, text: string): string {
   switch (kind) {
     case "boolean":
@@ -42,7 +42,7 @@ export function typed({ kind, value }: Parameter, text: string): string {
     case "text":
       return quoted(text);
     case "vector": {
-      // An array of arrays is shown and typed as TOML.
+      // An array of arrays is displayed and typed as TOML.
       if ((value !== "" && elements(value) === null) || /^\s*\[\s*\[/.test(text)) return text;
       const inside = text.trim().replace(/^\[([^]*)\]$/, "$1").trim();
       const parts = inside === "" ? [] : inside.split(",").map((part) => part.trim().replace(/^(["'])([^]*)\1$/, "$2"));
@@ -53,7 +53,7 @@ export function typed({ kind, value }: Parameter, text: string): string {
   }
 }
 
-/** "0.5" with the parameter's unit behind it. */
+/** "0.5" followed by the parameter's unit. */
 function measured(value: number, { unit }: Parameter): string {
   return unit ? `${readable(value)} ${unit}` : readable(value);
 }
@@ -72,13 +72,16 @@ export function limits(parameter: Parameter): string {
   return `${low_excluded ? "above" : "from"} ${readable(low)} ${low_excluded ? "and at most" : "to"} ${measured(high, parameter)}`;
 }
 
-/** A number and the unit behind it; nothing if the text is something else. */
+/** A number and its unit; nothing if the text is something else. */
 function measure(text: string): { number: number; unit: string } | null {
   const parts = /^([+-]?(?:\d[\d_]*\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(\S.*)?$/.exec(text.trim());
   return parts && { number: Number(parts[1].replace(/_/g, "")), unit: parts[2] ?? "" };
 }
 
-/** What the page itself sees to be wrong with a text, at once; the window knows the rest: units, words that depend. */
+/**
+ * Errors that the page can detect immediately. The window checks the rest: units, and words that depend on other
+ * values.
+ */
 export function wrong(parameter: Parameter, text: string): string {
   const { kind, low, high, low_excluded, unit } = parameter;
   if (!["quantity", "integer", "number"].includes(kind)) return "";
@@ -87,7 +90,7 @@ export function wrong(parameter: Parameter, text: string): string {
   if (!found) return kind === "quantity" ? "" : "a number is needed"; // a quantity may be a formula
   if (kind !== "quantity" && (found.unit || !isNumber(scalar(text)))) return "a number without a unit is needed";
   if (kind === "integer" && !Number.isInteger(found.number)) return "a whole number is needed";
-  // A limit of 0 holds in any unit; another one only in the unit that it is in, not in numbers of the simulation's base.
+  // A limit of 0 applies in any unit; other limits only in their own unit, not for numbers in the simulation's base.
   const same = kind !== "quantity" || unit === "" || found.unit === unit;
   const below = low !== null && (same || low === 0) && (low_excluded ? found.number <= low : found.number < low);
   const above = high !== null && (same || high === 0) && found.number > high;

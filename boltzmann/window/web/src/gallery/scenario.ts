@@ -1,4 +1,4 @@
-// The page of one scenario: picture, text, its parameters as a form that is checked while one types, RUN and SAVE AS.
+// The page of one scenario: picture, text, its parameters as a form that is checked during input, RUN and SAVE AS.
 import type { Words } from "../connection";
 import { h } from "../elements";
 import type { Reply } from "../protocol";
@@ -11,22 +11,22 @@ import type { Parameter } from "./parameter";
 
 export type Say = (message: Words) => Promise<Reply>;
 
-/** The answer to {"do":"scenario"}. */
+/** The reply to {"do":"scenario"}. */
 export interface Scenario {
   name: string;
   title: string;
   description: string;
   text: string;
   parameters: Parameter[];
-  /** Keys that its tables could have, too. */
+  /** Further keys of its tables. */
   absent: Parameter[];
-  /** What its typed laws say. */
+  /** The curves of its typed laws. */
   curves?: Curve[];
-  /** Of a saved one: what is wrong with it as it stands. */
+  /** For a saved one: its errors. */
   errors?: Trouble[];
 }
 
-/** What a user has typed into the form of a scenario: path -> text. Kept while the page is open. */
+/** The user's input in the form of a scenario: path -> text. Kept while the page is open. */
 export type Edits = Map<string, string>;
 
 interface Trouble {
@@ -34,7 +34,7 @@ interface Trouble {
   message: string;
 }
 
-const pause = 400; // milliseconds without typing before the window is asked
+const pause = 400; // milliseconds without typing before a check is requested
 
 /** "ensembles.atoms" as a heading. */
 function heading(table: string): string {
@@ -46,7 +46,7 @@ export class ScenarioPage {
   private readonly present: Field[];
   private readonly groups = new Map<string, HTMLElement>();
   private readonly more = new Map<string, More>();
-  /** Keys that are missing and needed. */
+  /** Required keys that are missing. */
   private needed: Field[] = [];
   private readonly form = h("form", { class: "gallery-form", novalidate: true });
   private readonly general = h("p", { class: "gallery-trouble", id: "gallery-trouble", role: "alert" });
@@ -114,7 +114,7 @@ export class ScenarioPage {
     if (this.changed.length > 0) this.edited();
   }
 
-  /** Nothing more is asked or shown. */
+  /** Stops all requests and updates. */
   leave(): void {
     this.gone = true;
     clearTimeout(this.timer);
@@ -134,7 +134,7 @@ export class ScenarioPage {
     return [...this.present, ...this.needed, ...[...this.more.values()].flatMap(({ fields }) => fields)];
   }
 
-  /** As a user had it before, if the page was left. */
+  /** Restores the user's input, if the page was left. */
   private field(parameter: Parameter, absent: boolean): Field {
     const field = new Field(parameter, this.made++, absent, () => this.edited());
     const before = this.edits.get(parameter.path);
@@ -142,7 +142,7 @@ export class ScenarioPage {
     return field;
   }
 
-  /** The part of the form for a table at the top; title and text are behind all tables. */
+  /** The part of the form for a top-level table; title and text follow all tables. */
   private group(name: string): HTMLElement {
     const known = this.groups.get(name);
     if (known) return known;
@@ -152,10 +152,10 @@ export class ScenarioPage {
     return made;
   }
 
-  /** The keys that tables could have, too; those of tables of which nothing is said stay as they are. */
+  /** Further keys of tables; tables that are not in the reply are unchanged. */
   private offer(absent: Parameter[]): void {
     const tables = new Map<string, Parameter[]>();
-    const own = new Set(this.present.map(({ parameter }) => parameter.path)); // left out by an empty field
+    const own = new Set(this.present.map(({ parameter }) => parameter.path)); // removed by an empty field
     const others = absent.filter(({ path }) => !own.has(path));
     this.need(others.filter(({ otherwise }) => otherwise === "needed"));
     for (const key of others.filter(({ otherwise }) => otherwise !== "needed")) {
@@ -174,7 +174,7 @@ export class ScenarioPage {
     }
   }
 
-  /** Puts keys that are needed beside those that their tables have. */
+  /** Adds required keys to the form of their tables. */
   private need(keys: Parameter[]): void {
     const wanted = new Set(keys.map(({ path }) => path));
     for (const field of this.needed) if (!wanted.has(field.parameter.path) && !field.changed) field.element.remove();
@@ -194,7 +194,7 @@ export class ScenarioPage {
     }
   }
 
-  /** What the keys that are there mean now. */
+  /** Updates the descriptions of the present keys. */
   private describe(parameters: Parameter[]): void {
     for (const field of this.present) {
       const now = parameters.find(({ path }) => path === field.parameter.path);
@@ -271,7 +271,7 @@ export class ScenarioPage {
         event.stopPropagation();
         open(false);
       } else if (event.key === "Enter" && event.target === name) {
-        event.preventDefault(); // it would RUN
+        event.preventDefault(); // it would trigger RUN
         void store(false);
       }
     });
@@ -297,7 +297,7 @@ export class ScenarioPage {
       else this.edits.delete(field.parameter.path);
     for (const more of this.more.values()) more.tell();
     clearTimeout(this.timer);
-    ++this.asked; // an answer that is under way is of something else
+    ++this.asked; // discard a pending reply, which is outdated
     this.element.dataset.checked = "waiting";
     this.timer = window.setTimeout(() => void this.check(), pause);
     this.tellState();
@@ -319,14 +319,14 @@ export class ScenarioPage {
     this.draw((reply.curves as Curve[] | undefined) ?? []);
     this.element.dataset.checked = reply.error ? "errors" : "ok";
     this.tellState();
-    if (this.changed.length > before) this.edited(); // a key that had been set before is offered again
+    if (this.changed.length > before) this.edited(); // a key that had been set is offered again
   }
 
   private draw(curves: Curve[]): void {
     for (const field of this.fields) field.draw(curves.find(({ path }) => path === field.parameter.path) ?? null);
   }
 
-  /** Puts the errors of an answer where they belong. */
+  /** Shows the errors of a reply at their fields. */
   private show(reply: Reply): void {
     const list = (Array.isArray(reply.errors) ? reply.errors : []) as Trouble[];
     const elsewhere: string[] = [];

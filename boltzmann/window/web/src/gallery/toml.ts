@@ -1,8 +1,8 @@
-// Values of a scenario as a form shows them, without quotes and brackets, and as TOML has them.
+// Conversion of values between TOML and a form, which omits quotes and brackets.
 
 const escapes: Record<string, string> = { b: "\b", t: "\t", n: "\n", f: "\f", r: "\r", '"': '"', "\\": "\\" };
 
-/** "7.6 angstrom" for the TOML text '"7.6 angstrom"' or "'7.6 angstrom'"; null if it isn't one text. */
+/** "7.6 angstrom" for the TOML text '"7.6 angstrom"' or "'7.6 angstrom'"; null if it is not a single text. */
 export function unquoted(toml: string): string | null {
   const literal = /^'([^']*)'$/.exec(toml) ?? /^'''\n?([^]*)'''$/.exec(toml);
   if (literal) return literal[1];
@@ -21,12 +21,12 @@ export function quoted(text: string): string {
 }
 
 const number = /^[+-]?(?:\d[\d_]*(?:\.\d[\d_]*)?(?:[eE][+-]?\d+)?|inf|nan)$/;
-/** Whether TOML would read a number. */
+/** True if it is a TOML number. */
 export function isNumber(text: string): boolean {
   return number.test(text);
 }
 
-/** A number as it is, ".5" and "5." made whole; anything else is a text: "2 fs". */
+/** A number unchanged, with ".5" and "5." completed; anything else becomes a text: "2 fs". */
 export function scalar(text: string): string {
   const trimmed = text.trim();
   const whole = trimmed.replace(/^([+-]?)\./, "$10.").replace(/^([+-]?\d+)\.(?=$|[eE])/, "$1.0");
@@ -34,7 +34,7 @@ export function scalar(text: string): string {
   return quoted(trimmed);
 }
 
-/** The elements of a flat array, without quotes; null if it is no such array. */
+/** The elements of a flat array, without quotes; null if it is not such an array. */
 export function elements(toml: string): string[] | null {
   const inside = /^\[([^]*)\]$/.exec(toml.trim());
   if (!inside) return null;

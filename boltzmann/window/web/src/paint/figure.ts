@@ -1,5 +1,5 @@
-// What stands around a drawing: frame, ticks, titles, legend, colour bars and notes, laid out as
-// boltzmann/pictures/figure_plan.cpp does; tests/window/layouts.json holds both to it. All lengths are device pixels.
+// Layout of the elements around a drawing: frame, ticks, titles, legend, colour bars and notes. It is the same as in
+// boltzmann/pictures/figure_plan.cpp; tests/window/layouts.json tests both. All lengths are device pixels.
 import type { Canvas, ColourBar } from "../protocol";
 import { Pen } from "./text";
 import { css, parse, shown, type Rgba, type Theme } from "./theme";
@@ -12,7 +12,7 @@ export interface Box {
   height: number;
 }
 
-/** The part of an axis that is shown; logarithmic ones give the values, not their logarithms. */
+/** The displayed range of an axis; for logarithmic ones the values, not their logarithms. */
 export interface Range {
   low: number;
   high: number;
@@ -41,7 +41,7 @@ const barGap = 28,
   barWidth = 22,
   legendRow = 31,
   headingRow = 1.4,
-  noteRow = 23; // headingRow: of its font
+  noteRow = 23; // headingRow: in units of its font
 
 const nothing: Ticks = { major: [], minor: [], labels: [], multiplier: "", exponent: 0 };
 
@@ -66,9 +66,9 @@ interface Bar {
 
 export class Figure {
   box: Box;
-  /** Where the box could stand: larger than the box if that has to keep its ratio. */
+  /** The space available for the box, which may be smaller to keep its ratio. */
   room: Box;
-  /** The room kept for the labels at y. */
+  /** The space reserved for the labels at y. */
   labels = 0;
   private xTicks = nothing;
   private yTicks = nothing;
@@ -85,8 +85,10 @@ export class Figure {
   private notesTop = 0;
   private multiplierBelow = false;
 
-  /** unit: device pixels for one pixel of a picture of 1200 x 900. ratio: what width / height of the box must be; 0:
-   * free. leastLabels: room that labels at y get in any case. headed: with the title of the canvas. */
+  /**
+   * unit: device pixels for one pixel of a picture of 1200 x 900. ratio: width / height of the box; 0: free.
+   * leastLabels: minimum space for labels at y. headed: with the title of the canvas.
+   */
   constructor(
     private readonly canvas: Canvas,
     private readonly pen: Pen,
@@ -111,7 +113,7 @@ export class Figure {
     this.bars = canvas.bars.map((bar) => ({ bar, ticks: nothing, labels: 0, width: 0 }));
     const outer = this.length(outerRoom);
     this.box = this.room = { left: outer, top: outer, width: width - 2 * outer, height: height - 2 * outer };
-    // Margins depend on labels, these on the box, this on the margins: three rounds settle it.
+    // Margins depend on labels, these on the box, and the box on the margins. Three iterations suffice.
     for (let round = 0; round < 3; ++round) this.plan(leastLabels);
   }
 
@@ -132,7 +134,7 @@ export class Figure {
     return wide > most ? (font * most) / wide : font;
   }
 
-  /** The most ticks whose labels don't touch. */
+  /** The largest number of ticks whose labels don't overlap. */
   private ticksThatFit(range: Range, extent: number, across: boolean, atMostExponent = 400): Ticks {
     for (let most = 8; ; --most) {
       const ticks = ticksBetween(
@@ -163,7 +165,7 @@ export class Figure {
     if (!this.canvas.frame) return;
     this.xTicks = this.ticksThatFit(this.x, this.box.width, true);
     this.yTicks = this.ticksThatFit(this.y, this.box.height, false);
-    // With equal units, both count in the same power of ten.
+    // With equal scales, both use the same power of ten.
     if (!this.ratio || !this.xTicks.multiplier || !this.yTicks.multiplier) return;
     const exponent = Math.min(this.xTicks.exponent, this.yTicks.exponent);
     this.xTicks = this.ticksThatFit(this.x, this.box.width, true, exponent);
@@ -237,7 +239,7 @@ export class Figure {
     return (plan.width = Math.max(plan.width, this.length(barGap) + multiplier));
   }
 
-  /** Beside a space, whose box changes as it is turned, bars keep their place. */
+  /** Beside a space, whose box changes with the camera, bars keep their place. */
   private barBox(): Box {
     return this.canvas.frame ? this.box : this.room;
   }
@@ -252,7 +254,7 @@ export class Figure {
     let most = Math.max(wide, free);
     this.headingFont = this.length(headingText);
     if (this.unit * 900 > this.width && this.pen.width(this.canvas.title, this.headingFont, true) > most) {
-      // A narrow pane has no room for a long title in large letters.
+      // A narrow pane has no space for a long title in large letters.
       this.headingFont = this.length(legendText);
       most = this.width - this.length(2 * outerRoom);
     }
@@ -276,7 +278,7 @@ export class Figure {
     );
   }
 
-  /** The height of what stands below the frame. */
+  /** The height of the elements below the frame. */
   private planBelow(left: number, right: number): number {
     const outer = this.length(outerRoom);
     const framed = this.canvas.frame;
@@ -297,7 +299,7 @@ export class Figure {
     return this.notes.length ? below + this.length(4) : below;
   }
 
-  /** Where marks may be drawn: inside of a frame; without one wherever no heading, bar or note stands. */
+  /** The region for marks: inside of a frame; without one, outside of headings, bars and notes. */
   get clip(): Box {
     if (this.canvas.frame) return this.box;
     const top = this.heading.length || this.keyRows ? Math.floor(this.room.top) : 0;
@@ -311,7 +313,7 @@ export class Figure {
     return across ? left + placeOn(this.x, value) * width : top + (1 - placeOn(this.y, value)) * height;
   }
 
-  /** What lies under the drawing. */
+  /** Draws the elements under the drawing. */
   drawUnder() {
     const context = this.pen.context;
     context.fillStyle = css(this.theme.paper);
@@ -335,7 +337,7 @@ export class Figure {
     context.stroke();
   }
 
-  /** What is drawn around and over the drawing. */
+  /** Draws the elements around and over the drawing. */
   drawOver() {
     if (this.canvas.frame) this.drawFrame();
     this.drawHeading();
@@ -495,7 +497,7 @@ export class Figure {
     };
     const map = this.maps[bar.map] ?? ["#9e9e9e"];
     const some = bar.high > bar.low;
-    // Pixel row by pixel row, so that no seams show.
+    // Pixel row by pixel row, so that no seams are visible.
     for (let row = 0; row < area.height; ++row) {
       const level = some ? 1 - (row + 0.5) / area.height : 0.5;
       context.fillStyle = map[Math.min(Math.floor(level * map.length), map.length - 1)] ?? "";
@@ -534,7 +536,7 @@ export class Figure {
   }
 }
 
-/** A line of text in the middle, for what can't be drawn. */
+/** A line of text in the middle, in place of a drawing that is not possible. */
 export function drawLine(pen: Pen, text: string, colour: Rgba, box: Box, size: number) {
   const lines = pen.wrapped(text, size, 0.9 * box.width);
   pen.context.fillStyle = css(colour);

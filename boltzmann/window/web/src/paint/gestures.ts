@@ -1,4 +1,4 @@
-// Mouse, touch and keyboard over a pane, as turning, moving and zooming.
+// Mouse, touch and keyboard input of a pane: rotation, translation and zoom.
 
 export interface Steered {
   /** x, y: CSS pixels in the pane; factors above 1 magnify. */
@@ -11,7 +11,7 @@ export interface Steered {
   readonly element: HTMLElement;
 }
 
-/** Returns what takes the listeners away. */
+/** Returns a function that removes the listeners. */
 export function steer(pane: Steered): () => void {
   const { element } = pane;
   const ended = new AbortController();
@@ -44,7 +44,7 @@ export function steer(pane: Steered): () => void {
     if (!before) return;
     const now = place(event);
     const other = [...fingers].find(([id]) => id !== event.pointerId)?.[1];
-    // A hand that only clicks trembles a little.
+    // Tolerate small movements during a click.
     if (moved < 4) moved = Math.max(moved, Math.hypot(now.x - grab.x, now.y - grab.y));
     if (moved < 4) return;
     fingers.set(event.pointerId, now);

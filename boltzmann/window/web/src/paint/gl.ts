@@ -1,7 +1,7 @@
-// One WebGL2 context for all panes of a page: its programs, and the tables of colours. A browser has room for few.
-//
-// Arrays are drawn as they came. How they become pixels is a Mapping: coordinate = origin + scale * number, then a
-// logarithm where asked for, then a matrix.
+// One WebGL2 context for all panes of a page, with its programs and colour tables. Browsers limit the number of
+// contexts.
+// Arrays are drawn as received. A Mapping converts them to pixels: coordinate = origin + scale * number, then an
+// optional logarithm, then a matrix.
 
 const common = `#version 300 es
 precision highp float;
@@ -23,8 +23,8 @@ vec3 inked(vec3 c) { return all(lessThan(abs(c * 255. - 1.), vec3(.5))) ? ink.rg
 vec3 faded(vec3 c, float depth) { return mix(c, paper.rgb, clamp(depth, 0., 1.) * fade); }
 `;
 
-// Coverage of a disc falls from 1 to 0 over one pixel at the rim, which adds pi / 12 to the area: the radius is less by
-// as much. Discs smaller than a pixel are faint ones of the smallest size (figure_paint.cpp).
+// Coverage of a disc decreases from 1 to 0 over one pixel at the rim, which adds pi / 12 to the area; the radius is
+// reduced to compensate. Discs smaller than a pixel are drawn as faint discs of the smallest size (figure_paint.cpp).
 const discVertex = `${common}
 layout(location = 0) in vec3 place;
 layout(location = 1) in float value;
@@ -70,8 +70,8 @@ void main() {
   gl_PointSize = 2. * ceil(r + 1.);
 }`;
 
-// pass 0: all of it, in the order of drawing. In a space 1: what covers, with depth; then 2: the soft edges.
-// Light falls from the upper left.
+// pass 0: everything, in drawing order. In a space, pass 1: opaque parts, with depth; then 2: the soft edges. Light
+// comes from the upper left.
 const discFragment = `#version 300 es
 precision highp float;
 flat in vec2 centre;
@@ -159,7 +159,7 @@ export interface Mapping {
   matrix: number[];
 }
 
-/** What the shaders compute: pixels from the lower left, and how far away (0 near, 1 far). */
+/** The calculation of the shaders: pixels from the lower left, and the depth (0 near, 1 far). */
 export function mapped(by: Mapping, x: number, y: number, z: number): [number, number, number] {
   let a = x * by.scale[0] + by.origin[0];
   let b = y * by.scale[1] + by.origin[1];
@@ -228,9 +228,9 @@ export class Shared {
   discs!: Program;
   strokes!: Program;
   largestPoint = 1;
-  /** Counts the contexts that this page had: buffers of an earlier one are gone. */
+  /** Counts the contexts of this page: buffers of an earlier one are lost. */
   generation = 0;
-  /** Called when the context is back. */
+  /** Called when the context is restored. */
   readonly restored = new Set<() => void>();
   private maps: Record<string, string[]> | null = null;
   private names: string[] = [];
@@ -261,13 +261,13 @@ export class Shared {
     this.gl.depthFunc(this.gl.LEQUAL);
   }
 
-  /** Makes room for a pane; it only grows. */
+  /** Enlarges the drawing buffer for a pane; it never shrinks. */
   grow(width: number, height: number) {
     if (this.element.width < width) this.element.width = width;
     if (this.element.height < height) this.element.height = height;
   }
 
-  /** Where in the table of colours a map is, 0..1. */
+  /** The row of a map in the colour table, 0..1. */
   mapRow(maps: Record<string, string[]>, name: string): number {
     const gl = this.gl;
     if (maps !== this.maps) {
@@ -295,7 +295,7 @@ export class Shared {
 
 let only: Shared | null | undefined;
 
-/** The page's one context; null where the browser has no WebGL2. */
+/** The page's single context; null if the browser has no WebGL2. */
 export function shared(): Shared | null {
   if (only === undefined)
     try {

@@ -1,4 +1,4 @@
-// How coordinates become pixels: the visible part of flat axes, or a camera that looks at a space by parallel rays.
+// Maps coordinates to pixels: the visible range of flat axes, or a camera with parallel projection for a space.
 import type { Axis, Canvas, Cloud } from "../protocol";
 import type { Box } from "./figure";
 import { mapped, type Mapping } from "./gl";
@@ -13,29 +13,29 @@ export interface Camera {
 }
 
 export interface Look {
-  /** Unit coordinates of marks; coordinates of the axes; to pixels from the lower left. */
+  /** Mappings to pixels from the lower left: from unit coordinates of marks, and from coordinates of the axes. */
   unit: Mapping;
   coordinates: Mapping;
   cloud(cloud: Pick<Cloud, "origin" | "scale">): Mapping;
-  /** Pixels for one unit of the x axis (on a logarithmic one for a decade), and for one unit coordinate of x. */
+  /** Pixels per unit of the x axis (on a logarithmic one per decade), and per unit coordinate of x. */
   perX: number;
   perUnit: number;
-  /** In a space: pixels for a pixel of a point's size. */
+  /** In a space: scale of the size of points. */
   perPoint: number;
   fade: number;
 }
 
-/** What is far is mixed with the paper by as much, at the far corner of the box. */
+/** The fraction of paper colour that is mixed into the farthest corner of the box. */
 const mostFade = 0.5;
 
-/** The axis' range as it is spread on paper: logarithms on a logarithmic axis. */
+/** The axis' range as drawn: logarithms on a logarithmic axis. */
 export function spread(axis: Axis): Span {
   const { low, high } = axis;
   if (axis.logarithmic) return low > 0 && high > low ? [Math.log10(low), Math.log10(high)] : [0, 1];
   return low < high ? [low, high] : [0, 1];
 }
 
-/** With equal units, a system much longer than high would be a thread: it gets empty room across. */
+/** With equal scales, a system much longer than high would be too thin: it is padded. */
 export function wholeRanges(canvas: Canvas): { x: Span; y: Span } {
   const thinnest = 0.12;
   const x = spread(canvas.x);
@@ -56,7 +56,7 @@ export function hasEqualAspect(canvas: Canvas): boolean {
   return canvas.equal_aspect && !canvas.x.logarithmic && !canvas.y.logarithmic;
 }
 
-/** height: of the whole pane, since a Mapping counts from its lower left. */
+/** height: of the whole pane, because a Mapping counts from its lower left. */
 export function flatLook(canvas: Canvas, box: Box, view: { x: Span; y: Span }, height: number): Look {
   const per = [box.width / (view.x[1] - view.x[0]), box.height / (view.y[1] - view.y[0])] as const;
   const start = [box.left, height - box.top - box.height] as const;
@@ -78,7 +78,7 @@ export function flatLook(canvas: Canvas, box: Box, view: { x: Span; y: Span }, h
         result.matrix[5 * i] = per[i];
         result.matrix[12 + i] = start[i] - low[i] * per[i];
       } else {
-        // Multiplied out here, in double precision.
+        // Multiplied here, in double precision.
         result.scale[i] = s * per[i];
         result.origin[i] = start[i] + (o - low[i]) * per[i];
       }
@@ -102,11 +102,11 @@ export function flatLook(canvas: Canvas, box: Box, view: { x: Span; y: Span }, h
 const radians = Math.PI / 180;
 const dot = (a: Place3, b: Place3) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 
-/** The box of a space and the directions of a camera. Places are unit coordinates: (coordinate - middle) / half. */
+/** The box of a space and the directions of a camera. Positions are unit coordinates: (coordinate - middle) / half. */
 export class Space {
   readonly middle: Place3;
   readonly half: number;
-  /** Half the box's sides in unit coordinates. */
+  /** Half of the box's sides in unit coordinates. */
   readonly sides: Place3;
   readonly right: Place3;
   readonly up: Place3;
@@ -116,7 +116,7 @@ export class Space {
     readonly axes: [Axis, Axis, Axis],
     half: number | undefined,
     readonly camera: Camera,
-    /** How much larger than in a picture of 1200 x 900 texts are, against the box. */
+    /** The scale of texts relative to the box, compared with a picture of 1200 x 900. */
     readonly crowding: number,
   ) {
     const widths = axes.map((axis) => Math.abs(axis.high - axis.low));
@@ -136,14 +136,14 @@ export class Space {
   project(place: Place3): { right: number; up: number; near: number } {
     return { right: dot(this.right, place), up: dot(this.up, place), near: dot(this.near, place) };
   }
-  /** A place in the camera's plane through the middle of the box. */
+  /** A position in the camera's plane through the middle of the box. */
   inPlane(right: number, up: number): Place3 {
     return this.right.map((r, i) => r * right + (this.up[i] ?? 0) * up) as Place3;
   }
   private reach(direction: Place3): number {
     return direction.reduce((sum, d, i) => sum + Math.abs(d) * (this.sides[i] ?? 0), 0);
   }
-  /** What the picture shows, with room for the names of the axes. */
+  /** The range of the picture, with space for the names of the axes. */
   ranges(): { right: Span; up: Span; size: number } {
     const r = this.reach(this.right);
     const u = this.reach(this.up);
@@ -152,7 +152,7 @@ export class Space {
     return { right: [-r - 0.1 * room, r + 0.07 * room], up: [-u - 0.07 * room, u + 0.07 * room], size };
   }
 
-  /** per: pixels for a unit coordinate. x, y: where the middle of the box is, in pixels from the lower left. */
+  /** per: pixels per unit coordinate. x, y: the middle of the box, in pixels from the lower left. */
   look(per: number, x: number, y: number): Look {
     const depth = this.reach(this.near) || 1;
     const ranges = this.ranges();
@@ -178,9 +178,9 @@ export class Space {
     };
   }
 
-  /** The part of the box, in coordinates, that falls on a rectangle of the picture; null if nothing of it does. */
+  /** The part of the box, in coordinates, inside a rectangle of the picture; null if it is empty. */
   visible(right: Span, up: Span): [Span, Span, Span] | null {
-    // Each corner of what is visible lies on a face of the box: these are cut by the rectangle's four planes.
+    // Each corner of the visible part is on a face of the box, cut by the rectangle's four planes.
     const cuts: [Place3, number][] = [
       [this.right, right[1]],
       [this.right.map((v) => -v) as Place3, -right[0]],
@@ -228,7 +228,7 @@ export class Space {
   }
 }
 
-/** A place in pixels of the pane, from its upper left. */
+/** A position in pixels of the pane, from its upper left. */
 export function toPane(mapping: Mapping, height: number, place: readonly number[]): [number, number, number] {
   const [x, y, far] = mapped(mapping, place[0] ?? 0, place[1] ?? 0, place[2] ?? 0);
   return [x, height - y, far];

@@ -1,4 +1,4 @@
-// The marks of a canvas on the GPU: their arrays are uploaded once and drawn as often as one looks at them.
+// The marks of a canvas on the GPU. Their arrays are uploaded once and drawn for each paint.
 import type { Canvas, Cloud, Mark, Marks } from "../protocol";
 import type { Box } from "./figure";
 import type { Mapping, Shared } from "./gl";
@@ -6,7 +6,7 @@ import type { Look } from "./look";
 import { parse, shown, type Rgba, type Theme } from "./theme";
 import type { Trail } from "./trails";
 
-/** Marks that the GPU draws; the others are paths, texts and images of the 2D context. */
+/** True for marks that the GPU draws; the others are paths, texts and images of the 2D context. */
 export function onGpu(mark: Mark): mark is Cloud | Marks {
   return !["curve", "text", "image"].includes(mark.kind);
 }
@@ -15,11 +15,11 @@ interface Slot {
   mark: Cloud | Marks;
   buffers: WebGLBuffer[];
   count: number;
-  /** Of a cloud, in units of the x axis. */
+  /** For a cloud, in units of the x axis. */
   largest: number;
 }
 
-/** Which numbers of a buffer an attribute takes: bytes from its start, bytes from one mark to the next. */
+/** The layout of an attribute in a buffer: offset and stride in bytes. */
 interface Source {
   buffer: WebGLBuffer | undefined;
   size: number;
@@ -34,13 +34,13 @@ export interface Scene {
   maps: Record<string, string[]>;
   width: number;
   height: number;
-  /** The part of the pane that is drawn on. */
+  /** The drawing region of the pane. */
   clip: Box;
-  /** Device pixels for a pixel of a picture of 1200 x 900; for one of its texts. */
+  /** Device pixels per pixel of a picture of 1200 x 900; per pixel of one of its texts. */
   unit: number;
   textUnit: number;
   space: boolean;
-  /** Every so manieth particle only, for a moment. */
+  /** Temporarily draw only one of this number of particles. */
   coarse: number;
 }
 
@@ -52,7 +52,7 @@ export class GpuMarks {
 
   constructor(private readonly shared: Shared) {}
 
-  /** Brings the arrays of a canvas to the GPU; slot k is of its mark k. */
+  /** Uploads the arrays of a canvas to the GPU; slot k belongs to its mark k. */
   upload(canvas: Canvas) {
     const { gl } = this.shared;
     if (this.generation !== this.shared.generation) this.slots = [];
@@ -93,8 +93,8 @@ export class GpuMarks {
   }
 
   /**
-   * Draws mark number `first` and then every so manieth. Points are for clouds: without a graphics card, quads, which are
-   * instances, are drawn one by one, a hundred times as slowly.
+   * Draws every `every`-th mark from `first` on. Clouds use points, because without a graphics card quads, which are
+   * instances, are drawn one by one and a hundred times slower.
    */
   private draw(sources: (Source | null)[], count: number, quads: boolean, every = 1, first = 0) {
     const { gl } = this.shared;
@@ -122,7 +122,7 @@ export class GpuMarks {
     else gl.drawArrays(gl.POINTS, 0, some);
   }
 
-  /** margin: pixels around the pane in which points may have their centres: elsewhere WebGL drops the whole point. */
+  /** margin: pixels around the pane in which points may have their centres; elsewhere WebGL drops the whole point. */
   private values(scene: Scene, mapping: Mapping, margin = 0) {
     const { theme, width, height } = scene;
     this.shared.gl.viewport(-margin, -margin, width + 2 * margin, height + 2 * margin);
@@ -141,7 +141,7 @@ export class GpuMarks {
     };
   }
 
-  /** pass: 0 all, 1 what covers, 2 soft edges (gl.ts). Returns how many it drew. */
+  /** pass: 0 all, 1 opaque parts, 2 soft edges (gl.ts). Returns the number drawn. */
   drawDiscs(k: number, scene: Scene, pass: number): number {
     const slot = this.slots[k];
     if (!slot) return 0;
@@ -179,7 +179,7 @@ export class GpuMarks {
       return count;
     }
     const given = slot.largest > 0;
-    // In a space, points grow with what they stand in.
+    // In a space, points scale with the camera.
     const sized = given || scene.space;
     const perSize = given ? look.perX : scene.space ? look.perPoint : unit;
     const mapping = look.cloud(mark);
@@ -191,7 +191,7 @@ export class GpuMarks {
     const quads = largest > this.shared.largestPoint || (given && mapping.logs[0] > 0);
     discs.use({
       ...this.values(scene, mapping, quads ? 0 : Math.ceil(largest / 2) + 1),
-      // Where the colour carries a value, fading is weak: the colour bar must stay readable.
+      // If the colour represents a value, fading is weak, so that the colour bar remains readable.
       fade: mark.values ? 0.4 * look.fade : look.fade,
       toRadius: perSize / 2,
       quads: quads ? 1 : 0,
@@ -211,7 +211,8 @@ export class GpuMarks {
       null,
       null,
     ];
-    // Many in a space: a few from everywhere first, so that these hide most of the others before they are painted.
+    // For many discs in a space, draw a sparse sample first, so that it hides most of the others before they are
+    // shaded.
     const coarse = count > 20000 ? scene.coarse : 1;
     const parts = scene.space && count > 5000 ? 16 : coarse;
     for (let first = 0; first < parts; first += coarse) this.draw(sources, count, quads, parts, first);

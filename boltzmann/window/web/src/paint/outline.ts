@@ -1,6 +1,6 @@
 // The outline of a box in space: edges behind the particles first, the three at the nearest corner last; names and
-// ticks along three edges of the silhouette. As BoxOutline in boltzmann/pictures/projection.cpp has it;
-// tests/pictures/outlines.json holds both to it.
+// ticks along three edges of the silhouette. It is the same as BoxOutline in boltzmann/pictures/projection.cpp;
+// tests/pictures/outlines.json tests both.
 import { toPane, type Look, type Place3, type Space } from "./look";
 import { Pen } from "./text";
 import { css, type Theme } from "./theme";
@@ -51,7 +51,7 @@ export class Outline {
     context.lineTo(to[0] ?? 0, to[1] ?? 0);
     context.stroke();
   }
-  /** Names stay in the pane where they can. */
+  /** Keeps names inside the pane if possible. */
   private write(text: string, x: number, y: number, font: number, align: number) {
     const { pen, unit } = this;
     const wide = pen.width(text, font * unit);
@@ -86,8 +86,8 @@ export class Outline {
     // Right and up of the camera, in unit coordinates, as pixels of the pane.
     const pane = (right: number, up: number) => [origin[0] + right * per, origin[1] - up * per] as const;
     space.axes.forEach((axis, along) => {
-      // The silhouette's edges along this axis touch neither the nearest nor the farthest corner: x and y are named at
-      // the lower of them, z at the left one.
+      // The silhouette's edges along an axis are those without the nearest and farthest corner. The names of x and y
+      // are at the lower of them, that of z at the left one.
       let best: [Corner, Corner] | undefined;
       let lowest = Infinity;
       this.eachEdge((i, j, direction) => {
@@ -103,14 +103,14 @@ export class Outline {
       const [a, b] = best;
       const length = Math.hypot(b.right - a.right, b.up - a.up);
       const pixels = length * per;
-      if (pixels < 80 * unit) return; // seen from its end, or thin
+      if (pixels < 80 * unit) return; // parallel to the direction of view, or thin
       let outRight = (b.up - a.up) / length;
       let outUp = -(b.right - a.right) / length;
       if (outRight * (a.right + b.right) + outUp * (a.up + b.up) < 0) {
         outRight = -outRight;
         outUp = -outUp;
       }
-      // away: from the edge, in pixels of a picture's texts.
+      // away: distance from the edge, in pixels of a picture's texts.
       const edgeAt = (fraction: number, away: number) =>
         pane(
           a.right + fraction * (b.right - a.right) + ((away * unit) / per) * outRight,
@@ -134,12 +134,12 @@ export class Outline {
       const units = [ticks.multiplier, axis.unit].filter(Boolean).join(" ");
       const name = axis.label + (units ? ` (${units})` : "");
       if (along === 2) {
-        // Above the upper end, where it needs no room beside the box.
+        // Above the upper end, where it needs no extra margin.
         const top = a.up > b.up ? a : b;
         const [x, y] = pane(top.right, top.up + (34 * unit) / per);
         this.write(name, x, y, 21, 0.85);
       } else {
-        // Behind the numbers, as far as these reach from the edge.
+        // Beyond the numbers at the ticks.
         const widest = Math.max(0, ...ticks.labels.map((label) => this.pen.width(label, 18)));
         write(0.5, 34 + Math.abs(outRight) * widest + Math.abs(outUp) * 18, name, 21);
       }

@@ -1,4 +1,4 @@
-// One pane of the page: shows a canvas, and is turned, moved and zoomed without asking for another one.
+// One pane of the page: shows a canvas, and rotates, moves and zooms it without requesting another one.
 import type { Canvas, Cloud } from "../protocol";
 import { drawLine, type Box } from "./figure";
 import { steer } from "./gestures";
@@ -21,13 +21,13 @@ export interface Hit {
 
 export class Painter {
   readonly element = document.createElement("canvas");
-  /** The reader has zoomed, panned or turned. */
+  /** Called when the user has zoomed, panned or rotated. */
   onview?: () => void;
-  /** The reader has clicked: at a particle, or at none. */
+  /** Called when the user has clicked, with the particle or null. */
   onpick?: (hit: Hit | null) => void;
-  /** A picture is complete: the GPU too has done its part. */
+  /** Called when a picture is complete, including the work of the GPU. */
   onpaint?: (canvas: Canvas) => void;
-  /** Particles of the last picture, and how long it took, the GPU's part included. */
+  /** The number of particles of the last picture, and its time, including that of the GPU. */
   drawn = { points: 0, milliseconds: 0 };
 
   private readonly context: CanvasRenderingContext2D;
@@ -42,7 +42,7 @@ export class Painter {
   private colours;
   private uploaded: Canvas | null = null;
   private marked: number[] | null = null;
-  /** Diameter of what was picked, in units of the x axis. */
+  /** Diameter of the selected particle, in units of the x axis. */
   private ring = 0;
   private tracking = false;
   private trailLayer: HTMLCanvasElement | null = null;
@@ -56,7 +56,7 @@ export class Painter {
   private slow = 0;
   private rest = 0;
 
-  /** The host needs a size of its own; the painter fills it. */
+  /** The host must have a size of its own; the painter fills it. */
   constructor(
     private readonly host: HTMLElement,
     options: { maps: Record<string, string[]>; theme: "light" | "dark" },
@@ -84,7 +84,7 @@ export class Painter {
     this.resize();
   }
 
-  /** The next frame. Zoom, pan and camera stay, unless it has other axes. */
+  /** Shows the next frame. The view is kept, unless the canvas has other axes. */
   show(canvas: Canvas) {
     const before = this.view.canvas;
     if (this.view.show(canvas)) {
@@ -106,13 +106,13 @@ export class Painter {
     this.view.paintOn(this.colours);
     this.later();
   }
-  /** With the title of the canvas, or without it where the page says the same. */
+  /** Shows or hides the title of the canvas. */
   head(on: boolean) {
     if (on === this.view.headed) return;
     this.view.head(on);
     this.later();
   }
-  /** Also when it comes into the page. */
+  /** Also called when the pane is added to the page. */
   resize() {
     const style = getComputedStyle(this.host);
     if (style.position === "static") this.host.style.position = "relative";
@@ -124,7 +124,7 @@ export class Painter {
   get turns(): boolean {
     return this.view.turns;
   }
-  /** The whole view, from where the canvas is meant to be seen. */
+  /** Restores the default view of the canvas. */
   reset() {
     this.view.reset();
     this.changed();
@@ -132,33 +132,33 @@ export class Painter {
   zoom(factor: number) {
     this.zoomAt(NaN, NaN, factor, factor);
   }
-  /** x, y: CSS pixels of the pane that stay where they are; NaN: its middle. */
+  /** x, y: CSS pixels of the pane that stay fixed; NaN: its middle. */
   zoomAt(x: number, y: number, factorX: number, factorY: number) {
     this.view.zoomAt(x, y, factorX, factorY);
     this.changed();
   }
-  /** Moves what is drawn by CSS pixels. */
+  /** Moves the drawing by CSS pixels. */
   pan(dx: number, dy: number) {
     this.view.pan(dx, dy);
     this.changed();
   }
-  /** Turns the camera of a space, in degrees. */
+  /** Rotates the camera of a space, in degrees. */
   orbit(azimuth: number, elevation: number) {
     if (!this.turns) return;
     this.view.orbit(azimuth, elevation);
     this.changed();
   }
-  /** Keeps a place, in coordinates of the axes, in the middle. */
+  /** Keeps a position, in coordinates of the axes, in the middle. */
   follow(place: number[] | null) {
     this.view.follow(place);
     this.later();
   }
-  /** A ring around a place. */
+  /** Draws a ring around a position. */
   mark(place: number[] | null) {
     this.marked = place;
     this.later();
   }
-  /** On: every frame leaves its particles behind as faint points. Off: forgets them. */
+  /** On: the particles of every frame remain as faint points. Off: removes them. */
   track(on: boolean) {
     this.tracking = on;
     if (!on) this.forget();
@@ -168,7 +168,7 @@ export class Painter {
     return this.view.ranges();
   }
 
-  /** The particle at a place of the pane, in CSS pixels. */
+  /** The particle at a position of the pane, in CSS pixels. */
   pick(x: number, y: number): Hit | null {
     const layout = this.view.layout();
     if (!layout) return null;
@@ -191,7 +191,7 @@ export class Painter {
         const diameter = diameters ? (diameters[k] as number) : common;
         const radius = (diameter * look.perX) / 2;
         if (!(away < Math.max(radius, tolerance))) continue;
-        // What is pointed at goes before what is near to that; then the nearer to the eye, then what was drawn later.
+        // A particle under the pointer precedes those near it; then the nearest in depth, then the last drawn.
         const rank = away < radius ? (space ? at[2] : 0) - 1e6 : away;
         if (!best || rank <= best.rank) best = { cloud, k, rank, diameter };
       }
@@ -205,7 +205,7 @@ export class Painter {
     if (this.onpick) this.onpick(this.pick(x, y));
   }
 
-  /** Where the drawing is in the pane, in CSS pixels. */
+  /** The region of the drawing in the pane, in CSS pixels. */
   frameBox(): Box {
     const layout = this.view.layout();
     if (!layout) return { left: 0, top: 0, width: 0, height: 0 };
@@ -239,7 +239,7 @@ export class Painter {
   }
 
   private changed() {
-    // Where painting is slow, fewer particles are drawn while the view moves.
+    // If painting is slow, fewer particles are drawn while the view moves.
     if (this.slow > 60) {
       this.coarse = Math.min(16, Math.ceil(this.slow / 40));
       clearTimeout(this.rest);
@@ -252,7 +252,9 @@ export class Painter {
     this.onview?.();
   }
 
-  /** Before the browser's next frame, but not while the GPU still has the picture before. */
+  /**
+   * Schedules a paint before the browser's next frame, but not while the GPU is still busy with the previous picture.
+   */
   private later() {
     if (this.working) this.again = true;
     else if (!this.request) this.request = requestAnimationFrame(() => this.paint());
@@ -268,7 +270,7 @@ export class Painter {
     this.onpaint?.(canvas);
   }
 
-  /** Waits for the GPU, where there is no telling how long it will take. */
+  /** Waits for the GPU, because its time can't be predicted. */
   private await(began: number, canvas: Canvas) {
     const gl = this.shared?.gl;
     const fence = gl?.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
@@ -287,7 +289,7 @@ export class Painter {
     this.working = window.setTimeout(look, 0);
   }
 
-  /** Paints at once; what is new is painted by itself, soon. */
+  /** Paints immediately; new canvases are painted automatically. */
   paint() {
     cancelAnimationFrame(this.request);
     this.request = 0;
@@ -356,7 +358,7 @@ export class Painter {
       for (const k of waiting) gpu?.drawDiscs(k, scene, 2);
       waiting = [];
     };
-    // What the GPU has drawn so far comes into the picture.
+    // Copies the output of the GPU into the picture.
     const deliver = (to = context) => {
       soften();
       const { left, top, width: wide, height: tall } = clip;
@@ -405,7 +407,7 @@ export class Painter {
     return points;
   }
 
-  /** Tracks are kept as an image, to which the newest frame is added as long as nobody moves. */
+  /** Tracks are kept as an image, to which the newest frame is added while the view does not move. */
   private paintTrails(
     gl: WebGL2RenderingContext,
     scene: Scene,
@@ -423,7 +425,7 @@ export class Painter {
     const { frames, count } = this.trails;
     const key = JSON.stringify([scene.look.unit, scene.look.coordinates, scene.clip, scene.theme]);
     let fresh = count - this.trailCount;
-    // Those that were forgotten stay on the image until it is made anew.
+    // Removed tracks stay on the image until it is redrawn.
     if (key !== this.trailKey || fresh < 0 || (count > frames.length && count % 100 === 0)) {
       context.clearRect(0, 0, layer.width, layer.height);
       fresh = frames.length;

@@ -1,4 +1,4 @@
-// Curves, texts and images of a canvas: what the 2D context draws.
+// Curves, texts and images of a canvas, drawn with the 2D context.
 import type { Curve, Image, Texts } from "../protocol";
 import { toPane, type Look } from "./look";
 import { Pen } from "./text";
@@ -9,7 +9,7 @@ interface Node {
   y: number;
 }
 
-/** Of many nodes within half a pixel across, the first, lowest, highest and last. */
+/** Reduces many nodes within half a pixel in x to the first, lowest, highest and last. */
 function reduced(nodes: Node[]): Node[] {
   const kept: Node[] = [];
   for (let begin = 0, end = 0; begin < nodes.length; begin = end) {

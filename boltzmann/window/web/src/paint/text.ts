@@ -16,7 +16,7 @@ function parts(markup: string): { text: string; level: number }[] {
   return found.filter((part) => part.text);
 }
 
-/** Markup as a reader for the blind should say it. */
+/** The text for screen readers. */
 export function plainText(markup: string): string {
   return parts(markup)
     .map((part) => (part.level > 0 ? " to the " : "") + part.text)
@@ -30,7 +30,7 @@ export class Pen {
 
   constructor(readonly context: CanvasRenderingContext2D) {}
 
-  /** The names of fonts as in CSS; none while the page does not know them yet. */
+  /** The font names of the page's CSS; empty before they are known. */
   use(family: string) {
     if (!family || family === this.family) return;
     this.family = family;
@@ -75,7 +75,7 @@ export class Pen {
     context.restore();
   }
 
-  /** The text in lines that are no wider than `most`, where its words allow. */
+  /** Breaks the text into lines of at most this width, as far as its words permit. */
   wrapped(markup: string, size: number, most: number, bold = false): string[] {
     const lines: string[] = [];
     let line = "";

@@ -1,4 +1,4 @@
-// The colours of a picture on light and on dark paper; those of boltzmann/pictures/figure.cpp.
+// The colours of a picture on light and on dark paper, as in boltzmann/pictures/figure.cpp.
 
 export type Rgba = readonly [number, number, number, number];
 
@@ -8,7 +8,7 @@ export interface Theme {
   ink: Rgba;
   quiet: Rgba;
   grid: Rgba;
-  /** What the rim of a disc is mixed with, and how much of it. */
+  /** The colour mixed into the rim of a disc, and its fraction. */
   rim: number;
   rimStrength: number;
   accent: string;
@@ -46,7 +46,7 @@ export function parse(text: string): Rgba {
   return [byte(1), byte(3), byte(5), byte(7)];
 }
 
-/** #010101 stands for the ink of the paper. */
+/** #010101 represents the ink of the paper. */
 export function shown(colour: Rgba, theme: Theme): Rgba {
   const isInk = colour.slice(0, 3).every((v) => Math.abs(v * 255 - 1) < 0.5);
   return isInk ? [theme.ink[0], theme.ink[1], theme.ink[2], colour[3]] : colour;

@@ -1,12 +1,12 @@
-// Ticks: steps of 1, 2, 5 times a power of ten, and labels as short as they can be. As in
-// boltzmann/pictures/canvas_ticks.cpp; tests/pictures/ticks.json holds both to it.
+// Ticks: steps of 1, 2, 5 times a power of ten, and labels as short as possible. The same as in
+// boltzmann/pictures/canvas_ticks.cpp; tests/pictures/ticks.json tests both.
 
 export interface Ticks {
   major: number[];
   minor: number[];
-  /** One for each major tick. */
+  /** One per major tick. */
   labels: string[];
-  /** What all labels have to be multiplied by (and added to), "×10^{−8}"; may be empty. */
+  /** The factor (and offset) common to all labels, "×10^{−8}"; may be empty. */
   multiplier: string;
   exponent: number;
 }
@@ -61,7 +61,7 @@ function linearTicks(low: number, high: number, most: number, atMostExponent: nu
 
   const largest = Math.max(Math.abs(first), Math.abs(last)) * mantissa;
   if (largest >= 100000) {
-    // Too many digits: what all ticks share is written once.
+    // Too many digits: the common part of all ticks is written once.
     const middle = Math.trunc((first + last) / 2) * mantissa;
     const shared = Math.trunc((middle + (middle < 0 ? -50 : 50)) / 100) * 100;
     ticks.labels = units.map((u) => signed(String(u - shared)));
@@ -125,7 +125,7 @@ function logarithmicTicks(low: number, high: number, most: number): Ticks {
   return ticks;
 }
 
-/** At most `most` (>= 2) major ticks inside low..high. None where there is no such range. */
+/** At most `most` (>= 2) major ticks inside low..high; none if the range is invalid. */
 export function ticksBetween(low: number, high: number, logarithmic = false, most = 8, atMostExponent = 400): Ticks {
   if (!(low < high) || !isFinite(high - low) || (logarithmic && low <= 0))
     return { major: [], minor: [], labels: [], multiplier: "", exponent: 0 };

@@ -1,8 +1,8 @@
-// TRACK: where particles were in the frames before, as small faint points in buffers that stay on the GPU.
+// TRACK: earlier positions of particles, as small faint points in buffers that stay on the GPU.
 import type { Cloud } from "../protocol";
 import type { Shared } from "./gl";
 
-/** Of one frame, particles that look alike: x, y, z and the value of each. */
+/** The particles of one frame with the same style: x, y, z and the value of each. */
 export interface Trail extends Pick<Cloud, "colour" | "map" | "dimension" | "origin" | "scale"> {
   buffer: WebGLBuffer;
   count: number;
@@ -14,9 +14,9 @@ const mostFrames = 400,
   mostAtOnce = 20000;
 
 export class Trails {
-  /** The clouds of each frame kept. */
+  /** The clouds of each stored frame. */
   readonly frames: Trail[][] = [];
-  /** Frames that were kept since the last clear, also those that have gone since. */
+  /** The number of frames stored since the last clear, including discarded ones. */
   count = 0;
   private points = 0;
 
@@ -26,7 +26,7 @@ export class Trails {
     // The same particles in every frame: those whose number is a multiple of a power of two.
     let thinning = 1;
     while (all / thinning > mostAtOnce) thinning *= 2;
-    // One buffer for all that look alike: particles may come in many small clouds.
+    // One buffer per style, because particles may come in many small clouds.
     const groups = new Map<string, Cloud[]>();
     for (const cloud of clouds) {
       const { colour, map, dimension, origin, scale, values } = cloud;

@@ -1,5 +1,4 @@
-// Which part of a canvas a pane shows, and from where: zoom, pan, camera, what is followed; and the layout that follows
-// from these.
+// The displayed part of a canvas and its camera: zoom, pan, rotation, following; and the resulting layout.
 import type { Canvas } from "../protocol";
 import { Figure, type Range } from "./figure";
 import {
@@ -16,22 +15,22 @@ import {
 import type { Pen } from "./text";
 import type { Theme } from "./theme";
 
-/** What is seen, in coordinates of the canvas' axes. */
+/** The visible ranges, in coordinates of the canvas' axes. */
 export interface Ranges {
   x: Span;
   y: Span;
-  /** In a space: x, y and z of the part of the box that is seen. */
+  /** In a space: the visible part of the box in x, y and z. */
   z?: Span;
   /** In a space: the ranges of the projected picture (Projection in canvas.hpp), and its camera in degrees. */
   right?: Span;
   up?: Span;
   azimuth?: number;
   elevation?: number;
-  /** Not the whole. */
+  /** True if only a part is visible. */
   zoomed: boolean;
 }
 
-/** A canvas laid out in a pane; lengths are device pixels. */
+/** The layout of a canvas in a pane; lengths are device pixels. */
 export interface Layout {
   canvas: Canvas;
   figure: Figure;
@@ -39,7 +38,7 @@ export interface Layout {
   space: Space | null;
   width: number;
   height: number;
-  /** Device pixels for a CSS pixel; for a pixel of a picture of 1200 x 900; for one of its texts. */
+  /** Device pixels per CSS pixel; per pixel of a picture of 1200 x 900; per pixel of one of its texts. */
   scale: number;
   unit: number;
   textUnit: number;
@@ -50,25 +49,25 @@ interface FlatView {
   y: Span;
 }
 interface SpaceView {
-  /** What is in the middle, in unit coordinates. */
+  /** The centre of the view, in unit coordinates. */
   target: Place3;
-  /** Pixels for a unit coordinate, in smaller sides of the room. */
+  /** Pixels per unit coordinate, relative to the smaller side of the available space. */
   scale: number;
 }
 
-/** The least that marks, the least and the most that texts are scaled by, in CSS pixels: numbers at ticks have 20. */
+/** Minimum scale of marks, minimum and maximum scale of texts, in CSS pixels: numbers at ticks have 20. */
 const leastUnit = 0.58;
 const leastText = 0.6;
 const mostText = 0.75;
 
 const around = (middle: number, width: number): Span => [middle - width / 2, middle + width / 2];
 const between = (value: number, low: number, high: number) => Math.min(Math.max(value, low), high);
-/** A coordinate that may be a logarithm, as the value. */
+/** Converts a coordinate, which may be a logarithm, to the value. */
 const valueOf = (at: number, logarithmic: boolean) => (logarithmic ? 10 ** at : at);
 const stronger = (a: number, b: number) => (Math.abs(Math.log(a)) > Math.abs(Math.log(b)) ? a : b);
 const moved = (place: Place3, by: Place3, sign: number) => place.map((p, i) => p + sign * (by[i] as number)) as Place3;
 
-/** What must stay the same so that the view of the canvas before fits the next one. */
+/** The properties that must stay the same to keep the view for the next canvas. */
 function kindOf(canvas: Canvas): string {
   return (
     [canvas.x, canvas.y, canvas.z].map((axis) => axis && [axis.label, axis.unit, axis.logarithmic].join()).join(";") +
@@ -80,7 +79,7 @@ export class View {
   canvas: Canvas | null = null;
   /** In coordinates of the axes. */
   followed: number[] | null = null;
-  /** With the title of the canvas. */
+  /** True: with the title of the canvas. */
   headed = true;
   private kind = "";
   private flat: FlatView | null = null;
@@ -96,7 +95,7 @@ export class View {
     private theme: Theme,
   ) {}
 
-  /** True if this canvas has other axes, so that it is seen anew. */
+  /** Returns true if this canvas has other axes, so that the view is reset. */
   show(canvas: Canvas): boolean {
     const kind = kindOf(canvas);
     const other = kind !== this.kind;
@@ -126,7 +125,7 @@ export class View {
     return !!this.canvas?.z;
   }
 
-  /** x, y: CSS pixels of the pane that stay where they are; NaN: its middle. */
+  /** x, y: CSS pixels of the pane that stay fixed; NaN: its middle. */
   zoomAt(x: number, y: number, factorX: number, factorY: number) {
     const layout = this.layout();
     if (!layout) return;
@@ -162,7 +161,7 @@ export class View {
     this.planned = null;
   }
 
-  /** Moves what is drawn by CSS pixels. */
+  /** Moves the drawing by CSS pixels. */
   pan(dx: number, dy: number) {
     const layout = this.layout();
     if (!layout) return;
@@ -182,7 +181,7 @@ export class View {
     this.planned = null;
   }
 
-  /** Turns the camera, in degrees. */
+  /** Rotates the camera, in degrees. */
   orbit(azimuth: number, elevation: number) {
     const camera = this.seenCamera();
     this.camera = {
@@ -210,7 +209,7 @@ export class View {
     }
     const zoomed = this.space !== null || this.followed !== null;
     const start = toPane(look.unit, height, [0, 0, 0]);
-    // Of a rectangle of the pane, in unit coordinates of the camera's plane.
+    // The extent of a rectangle of the pane, in unit coordinates of the camera's plane.
     const right = (left: number, width: number): Span => [
       (left - start[0]) / look.perUnit,
       (left + width - start[0]) / look.perUnit,
@@ -266,7 +265,7 @@ export class View {
     return { target: space?.inPlane(right, up) ?? [0, 0, 0], scale: look.perUnit / Math.min(room.width, room.height) };
   }
 
-  /** The canvas as it is seen now; null while there is none or no room for it. */
+  /** The current layout of the canvas; null if there is none or no space for it. */
   layout(): Layout | null {
     const { canvas, host, planned } = this;
     const scale = window.devicePixelRatio || 1;
@@ -276,7 +275,7 @@ export class View {
     if (planned && planned.width === width && planned.height === height && planned.scale === scale) return planned;
     const fitting = Math.sqrt((host.clientWidth * host.clientHeight) / 1.08e6);
     const unit = Math.max(fitting, leastUnit) * scale;
-    // In a small pane texts stay readable; in a large one the drawing gets the room.
+    // In a small pane texts stay readable; in a large one the drawing uses the space.
     const text = between(fitting, leastText, mostText);
     const textUnit = text * scale;
     const size = { canvas, width, height, scale, unit, textUnit };
@@ -322,7 +321,7 @@ export class View {
     const whole = wholeRanges(canvas);
     const ratio = hasEqualAspect(canvas) ? (whole.x[1] - whole.x[0]) / (whole.y[1] - whole.y[0]) : 0;
     const frame = figure(range(view.x, canvas.x), range(view.y, canvas.y), ratio);
-    // While one moves and zooms, longer labels may push the frame, shorter ones don't pull it back.
+    // During zoom, longer labels may shift the frame, but shorter ones don't shift it back.
     this.labels = frame.labels / textUnit;
     return (this.planned = { ...size, figure: frame, look: flatLook(canvas, frame.box, view, height), space: null });
   }
