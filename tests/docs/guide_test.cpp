@@ -106,7 +106,7 @@ TEST(Guide, MistakesAreToldAsThePageHasThem) {
 }
 
 TEST(Guide, HasProgramsAndScenarios) {
-  EXPECT_GE(blocks("```cpp program").size(), 26u);
+  EXPECT_GE(blocks("```cpp program").size(), 27u);
   EXPECT_GE(blocks("```toml scenario").size(), 33u);
   EXPECT_GE(blocks("```sh commands").size(), 8u);
 }
