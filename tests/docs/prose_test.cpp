@@ -24,19 +24,18 @@ constexpr double longest_mean_sentence = 22;  // words
 constexpr std::size_t longest_line = 120;     // columns
 
 /// Words and phrases that the rules forbid.
-constexpr std::string_view forbidden[] = {"who",      "whom",      "whoever",  "whomever",         "nobody",
-                                          "somebody", "everybody", "anybody",  "is told",          "are told",
-                                          "be told",  "was told",  "is said",  "are said",         "be said",
-                                          "says",     "hears of",  "hear of",  "knows of",         "know of",
-                                          "so many",  "as a rule", "the rule", "knows nothing of", "from outside"};
+constexpr std::string_view forbidden[] = {
+    "who",      "whom",      "whoever",  "whomever",         "nobody",
+    "somebody", "everybody", "anybody",  "is told",          "are told",
+    "be told",  "was told",  "is said",  "are said",         "be said",
+    "says",     "hears of",  "hear of",  "knows of",         "know of",
+    "so many",  "as a rule", "the rule", "knows nothing of", "what comes from outside"};
 
 /// A phrase that a page may have all the same.
 struct Exception {
   std::string_view page, phrase, reason;
 };
-constexpr Exception exceptions[] = {
-    {"docs/reference/glossary.md", "from outside", "placeholder"},
-};
+std::vector<Exception> const exceptions{};
 
 std::string text_of(fs::path const& path) {
   std::ifstream file(path);
@@ -218,7 +217,7 @@ INSTANTIATE_TEST_SUITE_P(Page, Prose, testing::ValuesIn(pages()), [](testing::Te
 });
 
 bool is_exception(std::string_view page, std::string_view phrase) {
-  return std::any_of(std::begin(exceptions), std::end(exceptions),
+  return std::any_of(exceptions.begin(), exceptions.end(),
                      [&](Exception const& one) { return one.page == page && one.phrase == phrase; });
 }
 
@@ -262,7 +261,7 @@ TEST(ProseCheck, FindsForbiddenWordsAcrossLinesAndCountsSentences) {
 }
 
 TEST(ProseExceptions, AreFewAndNeeded) {
-  EXPECT_LT(std::size(exceptions), 20U);
+  EXPECT_LT(exceptions.size(), 20U);
   for (auto const& [page, phrase, reason] : exceptions) {
     bool needed = false;
     for (auto const& paragraph : paragraphs(source(page)))
@@ -324,10 +323,10 @@ TEST(ProseOfSources, HasNoMoreForbiddenWordsThanBefore) {
   for (auto const& file : files_below("python/boltzmann", {".py"})) python += forbidden_in(text_of(file)).size();
   for (auto const& file : files_below("scenarios", {".toml"})) scenarios += forbidden_in(text_of(file)).size();
   for (auto const& file : files_below("boltzmann/window/web/src", {".ts"})) page += forbidden_in(text_of(file)).size();
-  expect_at_most(786, comments, "comments of boltzmann/");
-  expect_at_most(130, texts, "texts of boltzmann/");
+  expect_at_most(744, comments, "comments of boltzmann/");
+  expect_at_most(117, texts, "texts of boltzmann/");
   expect_at_most(27, python, "python/boltzmann/");
-  expect_at_most(12, scenarios, "scenarios/");
+  expect_at_most(10, scenarios, "scenarios/");
   expect_at_most(31, page, "boltzmann/window/web/src/");
 }
 
