@@ -1,5 +1,5 @@
 // The prose rules of CONTRIBUTING.md: no forbidden words, sentences of at most 22 words on average, lines of at most 120
-// columns. Pages keep them. Sources, docstrings and scenarios are rewritten step by step, so their counts may only fall.
+// columns, no broken links. Pages keep them. Sources, docstrings and scenarios are rewritten step by step, so their counts may only fall.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -22,6 +22,7 @@ namespace fs = std::filesystem;
 
 constexpr double longest_mean_sentence = 22;  // words
 constexpr std::size_t longest_line = 120;     // columns
+constexpr std::size_t longest_page = 5000;    // words, without tables and code
 
 /// Words and phrases that the rules forbid.
 constexpr std::string_view forbidden[] = {
@@ -234,6 +235,7 @@ void expect_no_forbidden_words(std::string const& page) {
 
 void expect_short_sentences(std::string const& page) {
   auto const [count, words] = sentences(paragraphs(source(page)));
+  EXPECT_LE(words, longest_page) << page << ": split this page";
   if (count < 5) return;
   EXPECT_LE(static_cast<double>(words), longest_mean_sentence * static_cast<double>(count))
       << page << ": " << words << " words in " << count << " sentences";
@@ -246,10 +248,33 @@ void expect_short_lines(std::string const& page) {
         << page << ":" << k + 1 << ": a line of " << columns(lines[k]) << " columns; wrap it at 100";
 }
 
+std::string without_code(std::string line) {
+  for (std::size_t from = 0; (from = line.find('`', from)) != std::string::npos;) {
+    std::size_t const to = line.find('`', from + 1);
+    line.erase(from, to == std::string::npos ? to : to + 1 - from);
+  }
+  return line;
+}
+
+void expect_links_resolve(std::string const& page) {
+  std::size_t number = 0;
+  for (auto const& raw : prose_lines(source(page))) {
+    ++number;
+    std::string const line = without_code(raw);
+    for (std::size_t at = 0; (at = line.find("](", at)) != std::string::npos; ++at) {
+      std::string const link = line.substr(at + 2, line.find(')', at) - at - 2);
+      std::string const target = link.substr(0, link.find('#'));
+      if (target.empty() || target.find(':') != std::string::npos) continue;
+      EXPECT_TRUE(fs::exists(source(page).parent_path() / target)) << page << ":" << number << ": broken link " << link;
+    }
+  }
+}
+
 TEST_P(Prose, KeepsTheRules) {
   expect_no_forbidden_words(GetParam().name);
   expect_short_sentences(GetParam().name);
   expect_short_lines(GetParam().name);
+  expect_links_resolve(GetParam().name);
 }
 
 TEST(ProseCheck, FindsForbiddenWordsAcrossLinesAndCountsSentences) {
@@ -324,8 +349,8 @@ TEST(ProseOfSources, HasNoMoreForbiddenWordsThanBefore) {
   for (auto const& file : files_below("scenarios", {".toml"})) scenarios += forbidden_in(text_of(file)).size();
   for (auto const& file : files_below("boltzmann/window/web/src", {".ts"})) page += forbidden_in(text_of(file)).size();
   expect_at_most(744, comments, "comments of boltzmann/");
-  expect_at_most(117, texts, "texts of boltzmann/");
-  expect_at_most(27, python, "python/boltzmann/");
+  expect_at_most(116, texts, "texts of boltzmann/");
+  expect_at_most(26, python, "python/boltzmann/");
   expect_at_most(10, scenarios, "scenarios/");
   expect_at_most(31, page, "boltzmann/window/web/src/");
 }
