@@ -83,10 +83,11 @@ TEST_P(GuideCommands, Run) {
   EXPECT_EQ(run.status, 0) << run.err;
 }
 
-// The mistakes that the page of scenarios shows are those that its first scenario gets with two words changed.
-TEST(Guide, MistakesAreToldAsThePageHasThem) {
+// The page of scenario files quotes the messages that its first scenario gives with two words changed.
+TEST(Guide, MistakesAreThoseOfThePage) {
   auto const all = blocks("```toml scenario");
-  auto const first = std::find_if(all.begin(), all.end(), [](Block const& one) { return one.name == "scenarios_1"; });
+  auto const first =
+      std::find_if(all.begin(), all.end(), [](Block const& one) { return one.name == "reference_scenario_index_1"; });
   ASSERT_NE(first, all.end());
   std::string text = first->text;
   auto const change = [&](std::string const& word, std::string const& mistake) {
@@ -98,17 +99,17 @@ TEST(Guide, MistakesAreToldAsThePageHasThem) {
   change("mass = 1", "mass = \"3.4 angstrom\"");
   test::Folder const folder;
   test::write_text(folder / "argon.toml", text);
-  std::string told;
-  std::ifstream page(std::string(BOLTZMANN_SOURCE) + "/docs/guide/scenarios.md");
+  std::string quoted;
+  std::ifstream page(std::string(BOLTZMANN_SOURCE) + "/docs/reference/scenario/index.md");
   for (std::string line; std::getline(page, line);)
-    if (line.starts_with("    argon.toml:")) told += line.substr(4) + "\n";
-  EXPECT_EQ(test::bzm({"check", "argon.toml"}, folder.string()).err, told);
+    if (line.starts_with("    argon.toml:")) quoted += line.substr(4) + "\n";
+  EXPECT_EQ(test::bzm({"check", "argon.toml"}, folder.string()).err, quoted);
 }
 
 TEST(Guide, HasProgramsAndScenarios) {
   EXPECT_GE(blocks("```cpp program").size(), 27u);
-  EXPECT_GE(blocks("```toml scenario").size(), 33u);
-  EXPECT_GE(blocks("```sh commands").size(), 8u);
+  EXPECT_GE(blocks("```toml scenario").size(), 34u);
+  EXPECT_GE(blocks("```sh commands").size(), 10u);
 }
 
 }  // namespace

@@ -41,4 +41,4 @@ def test_program(text, printed, tmp_path):
 
 
 def test_the_documentation_has_programs():
-    assert len(list(programs())) >= 15
+    assert len(list(programs())) >= 22
