@@ -340,6 +340,7 @@ void expect_at_most(std::size_t most, std::size_t found, char const* where) {
 
 TEST(ProseOfSources, HasNoMoreForbiddenWordsThanBefore) {
   std::size_t comments = 0, texts = 0, python = 0, scenarios = 0, page = 0;
+  std::size_t other = forbidden_in(text_of(source("docs/bzm.1"))).size();
   for (auto const& file : files_below("boltzmann", {".cpp", ".hpp"})) {
     auto const prose = prose_of(text_of(file));
     comments += forbidden_in(prose.comments).size();
@@ -348,11 +349,13 @@ TEST(ProseOfSources, HasNoMoreForbiddenWordsThanBefore) {
   for (auto const& file : files_below("python/boltzmann", {".py"})) python += forbidden_in(text_of(file)).size();
   for (auto const& file : files_below("scenarios", {".toml"})) scenarios += forbidden_in(text_of(file)).size();
   for (auto const& file : files_below("boltzmann/window/web/src", {".ts"})) page += forbidden_in(text_of(file)).size();
+  for (auto const& file : files_below("docs/notebooks", {".ipynb"})) other += forbidden_in(text_of(file)).size();
   expect_at_most(744, comments, "comments of boltzmann/");
   expect_at_most(116, texts, "texts of boltzmann/");
   expect_at_most(26, python, "python/boltzmann/");
   expect_at_most(10, scenarios, "scenarios/");
   expect_at_most(31, page, "boltzmann/window/web/src/");
+  expect_at_most(11, other, "docs/bzm.1 and docs/notebooks/");
 }
 
 }  // namespace
