@@ -2,7 +2,7 @@
 BUILD := build/release
 SUDO := $(shell [ "$$(id -u)" = 0 ] || echo sudo)
 CORES := $(shell nproc)
-# CPU seconds that bzm takes from nothing, for one instruction set (docs/guide/install.md has the measurement).
+# CPU seconds that bzm takes from nothing, for one instruction set (docs/how-to/install.md has the measurement).
 BZM_SECONDS := 560
 NINJA := NINJA_STATUS='[%p of %t, %e s] ' cmake --build $(BUILD)
 

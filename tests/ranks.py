@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""What of runs over ranks takes too long for every day (docs/guide/ranks.md tells what came of it):
+"""Long tests of runs over ranks, not part of the suite (results: docs/how-to/run-on-a-cluster.md and docs/explanation/performance.md):
 
   tests/ranks.py build/release/bzm shipped [SCENARIO ...]  20 steps of each on 2 threads, 4 and 8 ranks beside 1
-  tests/ranks.py build/release/bzm resume [SCENARIO ...]   what 1, 2, 3, 8 ranks began, 1, 2, 3, 8 go on with
+  tests/ranks.py build/release/bzm resume [SCENARIO ...]   runs of 1, 2, 3, 8 ranks are resumed by 1, 2, 3, 8
   tests/ranks.py build/release/bzm kill [TIMES] [SEED]     kill -9 of any of three ranks at any moment
 
 Files are compared byte for byte; folders that a kill has changed are kept where one is. Exit status 1 where something differs, or a launcher outlives its ranks by 10 s."""

@@ -520,7 +520,7 @@ std::string catalogue_page(std::string const& given) {
     }
     auto const near = near_name(plain);
     throw Error("nothing is called '" + given + "'" +
-                (near.starts_with("; it is ") ? near : "; the page Coming from LAMMPS has a table of such words") +
+                (near.starts_with("; it is ") ? near : "; docs/how-to/from-lammps.md has a table of such words") +
                 " (bzm list shows all names)");
   }
   throw Error("nothing is called '" + name + "'" + near_name(name) + " (bzm list shows all names)");

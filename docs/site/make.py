@@ -1,7 +1,7 @@
-"""make.py OUT [--execute]: the pages of the documentation's site, for mkdocs, in OUT.
+"""make.py OUT [--execute]: write the pages of the documentation's site to OUT, for mkdocs.
 
-The guide with links that hold there, a gallery of the scenarios, a reference of what `bzm show` and docstrings tell, and
-the notebooks: with --execute as they come out of a kernel, else as they are stored."""
+The site has all pages below docs/, a gallery of the scenarios, a catalogue made from `bzm show` and from docstrings, and
+the notebooks. With --execute the notebooks are run; otherwise their stored outputs are shown."""
 
 import base64
 import html
@@ -19,10 +19,14 @@ import boltzmann
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 PAGES = {
-    "README.md": "index.md", "docs/architecture.md": "architecture.md", "docs/where-to-add.md": "where-to-add.md", "CONTRIBUTING.md": "contributing.md",
-    "CHANGELOG.md": "changelog.md",
+    "README.md": "index.md", "docs/index.md": "documentation.md", "CONTRIBUTING.md": "develop/contributing.md",
+    "CHANGELOG.md": "develop/changelog.md",
 }  # fmt: skip
-# Scenarios whose page plays them, and what makes the run short enough for that.
+PAGES |= {
+    str(path.relative_to(SOURCE)): str(path.relative_to(SOURCE / "docs"))
+    for path in sorted((SOURCE / "docs").rglob("*.md")) if path != SOURCE / "docs" / "index.md"
+}  # fmt: skip
+# Scenarios with a replay on their page, and the values that make these runs short.
 PLAYED = {
     "copper": {"output.trajectory": 20},
     "three-body": {"run.steps": 1265, "output.trajectory": 10},
@@ -38,35 +42,33 @@ CATALOGUES = {
 
 
 class Site:
-    """The folder of pages, and where each file of the source is in it."""
+    """The folder of pages, and the place of each source file in it."""
 
     def __init__(self, out):
         self.out = out
-        self.asked = set()  # files of the source that a page has linked to, beside the pages
+        self.linked_files = set()  # source files that pages link to, other than pages
 
-    def place(self, path):
-        """Of a file of the source on the site."""
+    def place(self, path, page=""):
+        """The path on the site of a source file."""
         path = pathlib.PurePosixPath(path)
         if str(path) in PAGES:
             return PAGES[str(path)]
-        if path.suffix == ".md" and path.parts[:2] == ("docs", "guide"):
-            return f"guide/{path.name}"
         if path.suffix == ".ipynb":
             return f"notebooks/{path.stem}.md"
         if not (SOURCE / path).is_file():
-            raise SystemExit(f"there is no {path}, which a page links to")
-        self.asked.add(str(path))
+            raise SystemExit(f"{page}: broken link: there is no {path}")
+        self.linked_files.add(str(path))
         return f"images/{path.name}" if path.suffix in (".png", ".svg") else f"source/{path}.md"
 
     def linked(self, line, source, page):
-        """A line whose links lead to where their files are on the site."""
+        """The line with its links changed to paths of the site."""
 
         def moved(link):
             target, anchor = re.fullmatch(r"([^#]*)(#.*)?", link[1]).groups()
             if not target or re.match(r"\w+:", target) or (self.out / os.path.dirname(page) / target).is_file():
                 return link[0]
             path = os.path.normpath(os.path.join(os.path.dirname(source), target))
-            return f"]({os.path.relpath(self.place(path), os.path.dirname(page) or '.')}{anchor or ''})"
+            return f"]({os.path.relpath(self.place(path, source), os.path.dirname(page) or '.')}{anchor or ''})"
 
         return re.sub(r"\]\(([^)\s]+)\)", moved, line)
 
@@ -76,7 +78,7 @@ class Site:
         path.write_text(text, encoding="utf-8")
 
     def markdown(self, text, source, page):
-        """As GitHub reads it -> as Python-Markdown does: blank lines before lists and tables, one word behind a fence."""
+        """Convert GitHub's Markdown for Python-Markdown: blank lines before lists and tables, one word after a fence."""
         lines, fenced, before = [], False, ""
         for line in text.splitlines():
             fence = re.match(r"\s*```(\w*)", line)
@@ -93,8 +95,8 @@ class Site:
             before = line
         self.write(page, "\n".join(lines) + "\n")
 
-    def copy_what_was_asked_for(self):
-        for path in sorted(self.asked):
+    def copy_linked_files(self):
+        for path in sorted(self.linked_files):
             place = self.place(path)
             if place.startswith("images/"):
                 (self.out / "images").mkdir(exist_ok=True)
@@ -105,20 +107,18 @@ class Site:
 
 
 def plain(text):
-    """Text in which nothing is marked up."""
+    """Text with all markup characters escaped."""
     return re.sub(r"([\\`*_\[\]#|])", r"\\\1", html.escape(text, quote=False))
 
 
-def guide(site):
+def documents(site):
     for path, page in PAGES.items():
         site.markdown((SOURCE / path).read_text(encoding="utf-8"), path, page)
-    for path in sorted((SOURCE / "docs" / "guide").glob("*.md")):
-        site.markdown(path.read_text(encoding="utf-8"), f"docs/guide/{path.name}", f"guide/{path.name}")
 
 
 def gallery(site):
-    """A page for each scenario, and one with the pictures of all."""
-    overview = ["# Gallery", "", "Each is a scenario that comes with Boltzmann: `bzm run NAME`, or "
+    """A page for each shipped scenario, and an overview with all pictures."""
+    overview = ["# Gallery", "", "These scenarios are part of Boltzmann. Run one with `bzm run NAME`, or in Python with "
                 '`boltzmann.load("NAME").run()`.', "", '<div class="gallery">']  # fmt: skip
     for path in sorted((SOURCE / "scenarios").glob("*.toml")):
         name, text = path.stem, path.read_text(encoding="utf-8")
@@ -137,7 +137,7 @@ def gallery(site):
 
 
 def replays(site):
-    """A run of some scenarios as a page that plays, in their pages of the gallery."""
+    """Add a replay to the gallery pages of some scenarios."""
     for name, values in PLAYED.items():
         with tempfile.TemporaryDirectory() as folder:
             boltzmann.load(name, set=values).run(out=folder + "/run", progress=False)
@@ -148,14 +148,14 @@ def replays(site):
         page.write_text(text.replace("## The scenario", f"## A run\n\n{frame}\n\n## The scenario", 1), encoding="utf-8")
 
 
-def reference(site):
-    """What `bzm show` tells of each name."""
+def catalogue_pages(site):
+    """The output of `bzm show` for each name."""
     for kind, title in CATALOGUES.items():
         catalogue = getattr(boltzmann, kind)
-        lines = [f"# {title}", "", f"What `bzm show NAME` and `boltzmann.{kind}[\"NAME\"]` tell.", ""]
+        lines = [f"# {title}", "", f"The output of `bzm show NAME` and of `boltzmann.{kind}[\"NAME\"]`.", ""]
         for name in catalogue:
             lines += [f"## {name}", "", "```text", str(catalogue[name]).rstrip("\n"), "```", ""]
-        site.write(f"reference/{kind}.md", "\n".join(lines))
+        site.write(f"catalogue/{kind}.md", "\n".join(lines))
 
 
 def documented(thing):
@@ -163,17 +163,17 @@ def documented(thing):
 
 
 def signature(name, function, method):
-    """As one calls it: ``run(steps=None, time=None)``."""
-    told = inspect.signature(function)
-    parameters = [p.replace(annotation=p.empty) for p in list(told.parameters.values())[1 if method else 0 :]]
-    return name + str(told.replace(parameters=parameters, return_annotation=inspect.Signature.empty))
+    """The call without annotations: ``run(steps=None, time=None)``."""
+    full = inspect.signature(function)
+    parameters = [p.replace(annotation=p.empty) for p in list(full.parameters.values())[1 if method else 0 :]]
+    return name + str(full.replace(parameters=parameters, return_annotation=inspect.Signature.empty))
 
 
 def python_reference(site):
-    """Every public name and what its docstring says."""
+    """Every public name with its docstring."""
     from boltzmann import ensemble, measured, notebook, stored
 
-    lines = ["# Python, name by name", "", "Beside the [guide](../guide/python.md), which has programs.", ""]
+    lines = ["# Python API", "", "All public names. [Python](../reference/python.md) has an overview with programs.", ""]
     things = {name: getattr(boltzmann, name) for name in boltzmann.__all__ if name != "exact"}
     others = [measured.Units, measured.Report, measured.Diagnosis, measured.Record,
               measured.Measured, measured.Mesh, measured.BoxEdges, stored.Trajectory, stored.StoredEnsemble, notebook.Window,
@@ -204,14 +204,14 @@ def python_reference(site):
     for name, function in vars(boltzmann.exact).items():
         if inspect.isfunction(function) and not name.startswith("_"):
             lines += of_function(f"exact.{name}", signature(name, function, False), function)
-    site.write("reference/python.md", "\n".join(lines))
+    site.write("catalogue/python.md", "\n".join(lines))
 
 
 def executed(path):
     import nbclient
     import nbformat
 
-    os.environ["PYDEVD_DISABLE_FILE_VALIDATION"] = "1"  # else the kernel warns of its own modules
+    os.environ["PYDEVD_DISABLE_FILE_VALIDATION"] = "1"  # suppress a warning about the kernel's own modules
     book = nbformat.read(path, as_version=4)
     nbclient.NotebookClient(book, timeout=120, kernel_name="python3").execute()
     return book
@@ -226,10 +226,10 @@ def shown(out, name, number, site):
         picture = f"{name}-{number}.png"
         (site.out / "notebooks").mkdir(exist_ok=True)
         (site.out / "notebooks" / picture).write_bytes(base64.b64decode(data["image/png"]))
-        return [f"![what the cell shows]({picture})", ""]
+        return [f"![output of the cell]({picture})", ""]
     text = "".join(data.get("text/plain", ""))
-    says_nothing = not text or re.match(r" *\d+ %  step |Text\(|<matplotlib|<Figure", text)
-    return [] if says_nothing else ["```text", text, "```", ""]
+    has_no_content = not text or re.match(r" *\d+ %  step |Text\(|<matplotlib|<Figure", text)
+    return [] if has_no_content else ["```text", text, "```", ""]
 
 
 def notebooks(site, execute):
@@ -241,8 +241,8 @@ def notebooks(site, execute):
             if cell["cell_type"] == "markdown":
                 lines += [text, ""]
                 if number == 0:
-                    lines += [f"The notebook is `docs/notebooks/{path.name}`; "
-                              "[Python](../guide/python.md#notebooks) says how to open it.", ""]  # fmt: skip
+                    lines += [f"This notebook is `docs/notebooks/{path.name}`. "
+                              "[Use Python](../how-to/use-python.md) explains how to open it.", ""]  # fmt: skip
                 continue
             lines += ["```python", text, "```", ""]
             for out in cell["outputs"]:
@@ -255,13 +255,13 @@ def main():
     shutil.rmtree(out, ignore_errors=True)
     out.mkdir(parents=True)
     site = Site(out)
-    guide(site)
+    documents(site)
     gallery(site)
     replays(site)
-    reference(site)
+    catalogue_pages(site)
     python_reference(site)
     notebooks(site, "--execute" in sys.argv[2:])
-    site.copy_what_was_asked_for()
+    site.copy_linked_files()
     shutil.copy(pathlib.Path(__file__).with_name("site.css"), out)
 
 

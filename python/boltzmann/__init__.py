@@ -1,7 +1,7 @@
 """Boltzmann: particle simulations.
 
-``bz.load("copper").run()`` runs a shipped scenario; ``bz.Simulation(...)`` says one table by table. docs/guide/python.md
-has the whole of it."""
+``bz.load("copper").run()`` runs a shipped scenario; ``bz.Simulation(...)`` builds one table by table.
+docs/reference/python.md is the reference."""
 
 try:
     import numpy as _numpy

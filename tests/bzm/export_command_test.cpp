@@ -99,7 +99,7 @@ TEST_F(Export, SaysWhatIsWrongInOneLine) {
 // Help, manual and guide name every ending of the one table.
 TEST_F(Export, IsDescribedByItsTable) {
   std::string const help = run({"--help"}).out, manual = text_of(fs::path(BOLTZMANN_SOURCE) / "docs/bzm.1"),
-                    guide = text_of(fs::path(BOLTZMANN_SOURCE) / "docs/guide/files.md");
+                    guide = text_of(fs::path(BOLTZMANN_SOURCE) / "docs/reference/files.md");
   for (auto const& format : export_formats()) {
     EXPECT_TRUE(has(help, std::string(format.suffixes))) << help;
     std::string const first(format.suffixes.substr(0, format.suffixes.find(' ')));

@@ -85,7 +85,7 @@ TEST(Words, InputsOfOtherProgramsAreNamed) {
   for (auto const& [text, wanted] : std::vector<std::pair<std::string, std::string>>{
            {"# 3d melt\nunits lj\natom_style atomic\nlattice fcc 0.8442\nregion box block 0 10 0 10 0 10\n"
             "pair_style lj/cut 2.5\nrun 250\n",
-            "this is a LAMMPS input; the page Coming from LAMMPS"},
+            "this is a LAMMPS input; docs/how-to/from-lammps.md translates its commands"},
            {"variable x index 1\nunits\t\tmetal\nboundary p p p\ntimestep 0.001\n", "this is a LAMMPS input"},
            {"LAMMPS data\n\n2 atoms\n1 atom types\n\nAtoms # atomic\n\n1 1 0 0 0\n2 1 1 1 1\n", "LAMMPS data file"},
            {"; run control\nintegrator = md\ndt = 0.002\nnsteps = 1000\ntcoupl = v-rescale\n", "GROMACS .mdp"},

@@ -1,5 +1,5 @@
-// The list of rooms in docs/architecture.md: every folder stands in it, and a room includes only from itself and from
-// rooms above it. And functions are no longer than what one reads at once, or say why.
+// The list of modules in docs/develop/architecture.md is complete, and a module includes only itself and modules above
+// it. Functions have at most 60 lines, or a comment that gives the reason.
 #include <boltzmann/files/text_file.hpp>
 
 #include <gtest/gtest.h>
@@ -17,38 +17,38 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<std::string> rooms() {
-  std::istringstream page(read_text(std::string(BOLTZMANN_SOURCE) + "/docs/architecture.md"));
+std::vector<std::string> modules() {
+  std::istringstream page(read_text(std::string(BOLTZMANN_SOURCE) + "/docs/develop/architecture.md"));
   std::vector<std::string> all;
   std::string line;
-  while (std::getline(page, line) && !line.starts_with("| room |")) {
+  while (std::getline(page, line) && !line.starts_with("| module |")) {
   }
   std::getline(page, line);  // below the head
   while (std::getline(page, line) && line.starts_with("| ")) all.push_back(line.substr(2, line.find(" |") - 2));
   return all;
 }
 
-TEST(Architecture, RoomsIncludeOnlyFromThoseAbove) {
-  auto const all = rooms();
-  auto const place = [&](std::string const& room) { return std::find(all.begin(), all.end(), room) - all.begin(); };
+TEST(Architecture, ModulesIncludeOnlyThoseAbove) {
+  auto const all = modules();
+  auto const place = [&](std::string const& name) { return std::find(all.begin(), all.end(), name) - all.begin(); };
   std::regex const include("#include <boltzmann/(\\w+)/");
   std::size_t seen = 0;
   for (auto const& folder : fs::directory_iterator(std::string(BOLTZMANN_SOURCE) + "/boltzmann")) {
     if (!folder.is_directory() || fs::is_empty(folder)) continue;
-    std::string const room = folder.path().filename();
-    ASSERT_LT(place(room), std::ssize(all)) << "docs/architecture.md does not tell of the room " << room;
+    std::string const name = folder.path().filename();
+    ASSERT_LT(place(name), std::ssize(all)) << "docs/develop/architecture.md does not list the module " << name;
     for (auto const& file : fs::recursive_directory_iterator(folder)) {
       auto const ending = file.path().extension();
       if (file.path().string().find("/web/") != std::string::npos || (ending != ".cpp" && ending != ".hpp")) continue;
       std::string const text = read_text(file.path().string());
       for (std::sregex_iterator found(text.begin(), text.end(), include), end; found != end; ++found, ++seen)
-        EXPECT_LE(place((*found)[1]), place(room)) << file.path() << " includes from " << (*found)[1];
+        EXPECT_LE(place((*found)[1]), place(name)) << file.path() << " includes the module " << (*found)[1];
     }
   }
   EXPECT_GT(seen, 1000U);
 }
 
-/// Where a comment or a literal ends that begins here; `from` itself if none does.
+/// The end of the comment or literal that starts at `from`, or `from` if none starts there.
 std::size_t end_of_text(std::string const& code, std::size_t from) {
   if (std::string_view("/R\"'").find(code[from]) == std::string_view::npos) return from;
   auto const behind = [&](std::string const& what, std::size_t at) {
@@ -69,13 +69,13 @@ std::size_t end_of_text(std::string const& code, std::size_t from) {
 
 struct Function {
   std::size_t at, lines;
-  bool says_why;
+  bool has_reason;
 };
 
-/// Those outside of functions, from their names to their ends.
+/// All functions of a source, from the first line of the declaration to the closing brace.
 std::vector<Function> functions_of(std::string const& code) {
   std::vector<Function> all;
-  std::size_t head = 0, inside = 0, body = 0;  // inside: open braces from that of a function on
+  std::size_t head = 0, inside = 0, body = 0;  // inside: open braces since the start of a function
   std::string words;                           // since the last statement
   auto const lines_between = [&](std::size_t from, std::size_t to) {
     return static_cast<std::size_t>(std::count(code.data() + from, code.data() + to, '\n'));
@@ -114,7 +114,7 @@ std::vector<Function> functions_of(std::string const& code) {
   return all;
 }
 
-TEST(Architecture, FunctionsAreShortOrSayWhyTheyAreNot) {
+TEST(Architecture, FunctionsAreShortOrGiveTheReason) {
   constexpr std::size_t most = 60;
   std::size_t seen = 0;
   for (std::string const folder : {"/boltzmann", "/python/module"})
@@ -122,11 +122,11 @@ TEST(Architecture, FunctionsAreShortOrSayWhyTheyAreNot) {
       auto const ending = file.path().extension();
       if (ending != ".cpp" && ending != ".hpp") continue;
       std::string const code = read_text(file.path().string());
-      for (auto const& [at, lines, says_why] : functions_of(code)) {
+      for (auto const& [at, lines, has_reason] : functions_of(code)) {
         ++seen;
-        EXPECT_TRUE(lines <= most || says_why)
+        EXPECT_TRUE(lines <= most || has_reason)
             << file.path() << ":" << std::count(code.data(), code.data() + at, '\n') + 1 << ": a function of " << lines
-            << " lines; cut it at its ideas, or say in its first line why not: {  // long: a table";
+            << " lines; split it, or give the reason in its first line: {  // long: a table";
       }
     }
   EXPECT_GT(seen, 6000U);

@@ -1,9 +1,11 @@
-// The guide's programs compile, run and keep what they promise; its scenarios pass `bzm check`; its commands run.
+// Programs in the documentation compile and run, its scenarios pass `bzm check`, and its commands run. Programs and
+// scenarios that pages no longer show are in tests/docs/programs and are tested, too.
 #include "../bzm/command.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cctype>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
@@ -17,23 +19,30 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A block of the guide: ```cpp program or ```toml scenario.
+/// A fenced block of a page below docs/: ```cpp program, ```toml scenario or ```sh commands.
 struct Block {
-  std::string name;  ///< the page's and which of its blocks it is
+  std::string name;  ///< path of the page and number of the block: how_to_write_a_law_2
   std::string text;
 };
 void PrintTo(Block const& block, std::ostream* out) { *out << block.name; }
 
 std::vector<Block> blocks(std::string const& beginning) {
   std::vector<Block> all;
-  for (auto const& page : fs::directory_iterator(std::string(BOLTZMANN_SOURCE) + "/docs/guide")) {
+  std::string const ending = beginning == "```cpp program" ? ".cpp" : beginning == "```toml scenario" ? ".toml" : ".sh";
+  for (auto const& file : fs::directory_iterator(std::string(BOLTZMANN_SOURCE) + "/tests/docs/programs"))
+    if (file.path().extension() == ending)
+      all.push_back({"former_" + file.path().stem().string(), test::text_of(file.path())});
+  fs::path const docs = std::string(BOLTZMANN_SOURCE) + "/docs";
+  for (auto const& page : fs::recursive_directory_iterator(docs)) {
     if (page.path().extension() != ".md") continue;
+    std::string stem = fs::relative(page.path(), docs).replace_extension().string();
+    for (char& c : stem)
+      if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
     std::ifstream file(page.path());
     int count = 0;
     for (std::string line; std::getline(file, line);) {
       if (line != beginning) continue;
-      Block block{page.path().stem().string() + "_" + std::to_string(++count), ""};
-      std::replace(block.name.begin(), block.name.end(), '-', '_');
+      Block block{stem + "_" + std::to_string(++count), ""};
       while (std::getline(file, line) && line != "```") block.text += line + "\n";
       all.push_back(block);
     }
@@ -79,10 +88,11 @@ TEST_P(GuideCommands, Run) {
   EXPECT_EQ(run.status, 0) << run.err;
 }
 
-// The mistakes that the page of scenarios shows are those that its first scenario gets with two words changed.
-TEST(Guide, MistakesAreToldAsThePageHasThem) {
+// The page of scenario files quotes the messages that its first scenario gives with two words changed.
+TEST(Guide, MistakesAreThoseOfThePage) {
   auto const all = blocks("```toml scenario");
-  auto const first = std::find_if(all.begin(), all.end(), [](Block const& one) { return one.name == "scenarios_1"; });
+  auto const first =
+      std::find_if(all.begin(), all.end(), [](Block const& one) { return one.name == "reference_scenario_index_1"; });
   ASSERT_NE(first, all.end());
   std::string text = first->text;
   auto const change = [&](std::string const& word, std::string const& mistake) {
@@ -94,17 +104,17 @@ TEST(Guide, MistakesAreToldAsThePageHasThem) {
   change("mass = 1", "mass = \"3.4 angstrom\"");
   test::Folder const folder;
   test::write_text(folder / "argon.toml", text);
-  std::string told;
-  std::ifstream page(std::string(BOLTZMANN_SOURCE) + "/docs/guide/scenarios.md");
+  std::string quoted;
+  std::ifstream page(std::string(BOLTZMANN_SOURCE) + "/docs/reference/scenario/index.md");
   for (std::string line; std::getline(page, line);)
-    if (line.starts_with("    argon.toml:")) told += line.substr(4) + "\n";
-  EXPECT_EQ(test::bzm({"check", "argon.toml"}, folder.string()).err, told);
+    if (line.starts_with("    argon.toml:")) quoted += line.substr(4) + "\n";
+  EXPECT_EQ(test::bzm({"check", "argon.toml"}, folder.string()).err, quoted);
 }
 
 TEST(Guide, HasProgramsAndScenarios) {
-  EXPECT_GE(blocks("```cpp program").size(), 3u);
-  EXPECT_GE(blocks("```toml scenario").size(), 1u);
-  EXPECT_GE(blocks("```sh commands").size(), 2u);
+  EXPECT_GE(blocks("```cpp program").size(), 27u);
+  EXPECT_GE(blocks("```toml scenario").size(), 33u);
+  EXPECT_GE(blocks("```sh commands").size(), 10u);
 }
 
 }  // namespace

@@ -249,7 +249,7 @@ std::pair<double, double> side_by_side(std::string const& temperature) {
   return {first, last};
 }
 
-// This potential melts between 920 and 1000 K: long runs (docs/guide/metals.md), by which that of Mishin and others
+// This potential melts between 920 and 1000 K: long runs (docs/explanation/validation.md), by which that of Mishin and others
 // melts between 1310 and 1350 K (published: 1380 K, from the speeds of fronts that melt a surface, H.-L. Wang,
 // X.-X. Wang and H.-Y. Liang, Acta Phys. Sin. 54, 4836, 2005; about 1285 K, from free energies, calphy's documentation).
 TEST(Metals, ACopperCrystalGrowsBelowItsMeltingPointAndMeltsAboveIt) {

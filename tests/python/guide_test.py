@@ -1,6 +1,6 @@
-"""The guide's programs in Python run as they stand, each alone in an empty folder, and print what the guide says.
+"""Each Python program of the documentation runs in an empty folder and prints what its page shows.
 
-A ```text block behind a ```python block is what the program prints; ... in it stands for anything."""
+A ```text block after a ```python block is the expected output; ... in it matches anything."""
 
 import os
 import pathlib
@@ -10,15 +10,15 @@ import sys
 
 import pytest
 
-GUIDE = pathlib.Path(__file__).resolve().parents[2] / "docs" / "guide"
+DOCS = pathlib.Path(__file__).resolve().parents[2] / "docs"
 
 
 def programs():
-    """Each ```python block: its page and number, its text, and the ```text block behind it or None."""
-    for page in sorted(GUIDE.glob("*.md")):
+    """Each ```python block: its page and number, its text, and the ```text block after it or None."""
+    for page in sorted(DOCS.rglob("*.md")):
         blocks = re.finditer(r"^```python\n(.*?)^```\n(?:\n*```text\n(.*?)^```$)?", page.read_text(), re.M | re.S)
         for number, block in enumerate(blocks, 1):
-            yield pytest.param(block[1], block[2], id=f"{page.stem}-{number}")
+            yield pytest.param(block[1], block[2], id=f"{page.relative_to(DOCS).with_suffix('')}-{number}")
 
 
 def pattern(text):
@@ -37,8 +37,8 @@ def test_program(text, printed, tmp_path):
     assert ran.returncode == 0, ran.stderr
     if printed is not None:
         out = "\n".join(line.rstrip() for line in ran.stdout.rstrip("\n").split("\n"))
-        assert re.fullmatch(pattern(printed), out, re.S), f"printed:\n{out}\n\nthe guide says:\n{printed}"
+        assert re.fullmatch(pattern(printed), out, re.S), f"printed:\n{out}\n\nexpected:\n{printed}"
 
 
-def test_the_guide_has_programs():
-    assert len(list(programs())) >= 15
+def test_the_documentation_has_programs():
+    assert len(list(programs())) >= 22

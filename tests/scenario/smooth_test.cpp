@@ -322,11 +322,11 @@ TEST(SmoothScenario, RunsAShockTube) {
   EXPECT_NEAR(velocity / count, 0.92745, 0.015);
 }
 
-// The guide's example, Taylor and Green's vortices: the kinetic energy decays as exp(-16 pi^2 nu t).
+// The example of the page on [smooth], Taylor-Green vortices: the kinetic energy decays as exp(-16 pi^2 nu t).
 TEST(SmoothScenario, OfTheGuideIsRight) {
-  std::ifstream in(BOLTZMANN_SOURCE "/docs/guide/scenarios.md");
+  std::ifstream in(BOLTZMANN_SOURCE "/docs/reference/scenario/smooth.md");
   std::string const guide((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
-  auto const section = guide.find("## [smooth]"), begin = guide.find("```toml scenario\n", section) + 17;
+  auto const begin = guide.find("```toml scenario\n") + 17;
   auto const scenario = read(guide.substr(begin, guide.find("```", begin) - begin),
                              {{"ensembles.0.load.spacing=0.0125", "ensembles.0.range=0.05"}, {}, {}, {}});
   scenario->simulation->check();

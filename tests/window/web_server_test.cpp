@@ -464,7 +464,7 @@ TEST(WebServer, silent_connections_never_make_a_page_fail) {
 // As many watchers of a run as the documented limit says, and a plain refusal above it.
 TEST(WebServer, hundreds_of_browsers_are_served_up_to_the_limit) {
   WebLimits limits;
-  EXPECT_EQ(limits.connections, 512U) << "and so 384 in docs/guide/window.md";
+  EXPECT_EQ(limits.connections, 512U) << "docs/how-to/use-the-window.md gives 384";
   limits.connections = 320;
   House house(limits);
   std::vector<WebSocketClient> browsers;

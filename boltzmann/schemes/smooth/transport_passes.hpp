@@ -9,8 +9,8 @@
 // In a linear flow this is 2 eta E:E + (zeta - 2 eta / D) (div v)^2 wherever second moments are isotropic: on lattices
 // exactly. The rest is damped by the share s. With s = 1 only relative velocities count. In a disordered fluid this
 // also damps their noise, which draws energy from the flow, so that the fluid is too viscous. With s = 0 alternating
-// rows would not be damped at all: the null mode of nested gradients. docs/guide/continuum.md has figures for several
-// s.
+// rows would not be damped at all: the null mode of nested gradients. Figures for several s are in
+// docs/explanation/methods/continuum.md.
 // Forces are the derivatives of Rayleigh's dissipation function, F_i = -d/dv_i Sum_k V_k Phi_k / 2:
 //   F_ij = V_i V_j K {2 eta_ij [c_i (s v - M_i r) + c_j (s v - M_j r)] + (b_i + b_j) r},
 //   M_i = W_i - (1 - s) G_i,   b_i = c_i (zeta_i - 2 eta_i / D) d_i.
