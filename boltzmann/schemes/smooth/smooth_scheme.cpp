@@ -311,8 +311,7 @@ void SmoothScheme::prepare(bool keep_lists) {
   if (!hood_) {
     check_heating();
     Recipe const recipe = this->recipe();
-    std::size_t const further = recipe.solids
-                                    ? transport_blocks(dimension) + matter_blocks(dimension) + solid_blocks(dimension)
+    std::size_t const further = recipe.solids      ? transport_blocks(dimension) + matter_blocks(dimension) + solid_blocks(dimension)
                                 : recipe.gradients ? transport_blocks(dimension) + matter_blocks(dimension)
                                 : recipe.transport ? transport_blocks(dimension)
                                                    : 0;
