@@ -531,7 +531,8 @@ double Loader::read_file() {
   double count = 0;
   catch_errors(reading_, section_.place(section_.has("species") ? "species" : "path"), [&] {
     count = static_cast<double>(count_species(frame_, options_.species));
-    if (count == 0) throw Error(fmt::format("path: frame {} of '{}' has no particles", options_.frame, file_name()));
+    if (count == 0)
+      throw Error(fmt::format("path: frame {} of '{}' has no particles", options_.frame, file_name()));
   });
   return count;
 }
