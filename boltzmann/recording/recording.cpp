@@ -186,7 +186,7 @@ struct Recording::State {
            !rows.instruments().follow_steps() && rows.instruments().sums_suffice();
   }
 
-  /// False on a rank that does not hold all rows, where only global sums are computed.
+  /// False if only global sums are needed, so that rows of other ranks were not gathered.
   bool rows_are_known() const {
     Share const* const share = ensembles().front()->share();
     return !share || !share->sums;

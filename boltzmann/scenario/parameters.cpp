@@ -179,7 +179,7 @@ ScenarioOutline outline_scenario(std::string const& text, std::string const& fil
       Item const* panels = value_in(body, "panels");
       auto const shape = text_in(body, "shape");
       if (shape == "polygon" || shape == "file" || (panels && !(panels->number > 0 && panels->number < 1e6)))
-        return outline;  // bodies also have panels
+        return outline;  // the number of panels depends on its corners
       count += panels ? panels->number : BodyOptions{}.panels;
     }
   outline.particles = static_cast<std::size_t>(count);

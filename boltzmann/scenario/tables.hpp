@@ -58,7 +58,7 @@ struct WallOptions {
   Box::End end = Box::End::low;
   bool open = false;
   std::optional<std::array<double, 3>> velocity;
-  Wall wall;  ///< without its region
+  Wall wall;  ///< without its velocity
 };
 OptionTable const& wall_options();
 

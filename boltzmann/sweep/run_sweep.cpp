@@ -215,7 +215,7 @@ class SweepProgress {
   double shown_ = 0;
 };
 
-/// Calls `part` with the fraction done, as often as the progress line is redrawn.
+/// Calls `call` with the fraction done, as often as the progress line is redrawn.
 void follow(Simulation& simulation, std::int64_t last, std::function<void(double part)> call) {
   simulation.observe_progress([first = simulation.step(), last, next = simulation.step(), begun = Clock::now(),
                                call = std::move(call)](Simulation const& now) mutable {

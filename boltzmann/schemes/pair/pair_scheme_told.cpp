@@ -127,7 +127,7 @@ std::vector<std::string> PairScheme::warnings(double step_size) {
       return &other < &near && other->target == near->source && other->source == near->target;
     });
     if (near->traits.typed && !said) warn_of_typed(*near, lines);
-    double const longest = said ? no_cutoff : near->collision_step(box());  // if reported already, invert the test
+    double const longest = said ? no_cutoff : near->collision_step(box());  // said: for the other order
     if (!(dt > longest)) continue;
     double const length = near->length_scale(box()), speed = pairs::collision_part * length / longest;
     lines.push_back(fmt::format(

@@ -34,9 +34,9 @@ struct OutlinePlace {
   double length = 1, angle = 0;
   Vector<2> centre{};
 };
-/// The polygon through the points of a file, x and y on a line each (laws/two_columns.hpp), in either orientation. The
-/// last point may repeat the first. With a `sharp` edge it is the first point. Throws Error with file and line if the
-/// file can't be read, if two neighbours are coincident or sides meet.
+/// The polygon through the points of a file with x and y of one point per line (laws/two_columns.hpp), in either
+/// orientation. The last point may repeat the first. With a `sharp` edge it is the first point. Throws Error with file
+/// and line if the file can't be read, if two neighbours are coincident or sides meet.
 Outline outline_from_file(std::string const& path, std::size_t panels, OutlinePlace const& place = {},
                           bool sharp = false);
 
