@@ -164,8 +164,8 @@ std::string foreign_input(std::string_view text) {
   if (is_lammps_data(text)) return loaded_by("a LAMMPS data file");
   if (text.starts_with("ITEM: TIMESTEP")) return loaded_by("a LAMMPS dump");
   if (lines_of(text, lammps_commands, false) >= 2)
-    return "this is a LAMMPS input; the page Coming from LAMMPS (docs/guide/from-lammps.md) says what its commands are "
-           "in a scenario";
+    return "this is a LAMMPS input; the page Coming from LAMMPS (docs/how-to/from-lammps.md) shows its commands as "
+           "keys of a scenario";
   if (auto python = python_program(text); !python.empty()) return python;
   if (lines_of(text, mdp_keys, true) >= 2) return fmt::format("this is a GROMACS .mdp file, {}", begin_anew);
   if (lines_that_begin(text, "[ moleculetype ]") + lines_that_begin(text, "[ system ]") +

@@ -108,7 +108,7 @@ TEST(Hours, StopASweepToo) {
   GasFolder folder;
   auto const outcome = folder.run({"--out", "sweep", "--seeds", "3", "--steps", "1000000000", "--hours", "0.0003"});
   EXPECT_EQ(outcome.status, 4) << outcome.err;
-  EXPECT_TRUE(has(outcome.err, "bzm resume sweep goes on with the sweep")) << outcome.err;
+  EXPECT_TRUE(has(outcome.err, "bzm resume sweep continues the sweep")) << outcome.err;
   EXPECT_EQ(bzm({"resume", "sweep", "--hours", "0.0001", "--quiet"}, folder.string()).status, 4);
 }
 
@@ -120,7 +120,7 @@ TEST(Hours, ArePositiveAndNotForWindows) {
     EXPECT_EQ(lines_in(outcome.err), 1U) << outcome.err;
     EXPECT_TRUE(has(outcome.err, "--hours")) << outcome.err;
   }
-  EXPECT_TRUE(has(folder.run({"--hours", "1", "--window"}).err, "--hours is for runs without a --window"));
+  EXPECT_TRUE(has(folder.run({"--hours", "1", "--window"}).err, "--hours is for runs without --window"));
   EXPECT_FALSE(fs::exists(folder / "results"));
 }
 
