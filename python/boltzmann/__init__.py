@@ -1,7 +1,8 @@
 """Boltzmann: particle simulations.
 
-``bz.load("copper").run()`` runs a shipped scenario; ``bz.Simulation(...)`` says one table by table. docs/guide/python.md
-has the whole of it."""
+``bz.load("copper").run()`` runs a shipped scenario. ``bz.Simulation(...)`` defines one table by table. See
+docs/reference/python.md.
+"""
 
 try:
     import numpy as _numpy

@@ -101,7 +101,7 @@ WRONG = {
     "a step size of another kind": (lambda: setattr(bz.load("copper"), "step_size", "5 kg"), "mass, a time is needed"),
     "negative steps": (lambda: ready().run(-1), r"rewind\(\)"),
     "half a step": (lambda: ready().run(0.5), "whole number"),
-    "steps and a time": (lambda: ready().run(3, time=1), "one of both"),
+    "steps and a time": (lambda: ready().run(3, time=1), "one of the two"),
     "a time of another kind": (lambda: bz.load("copper").run(time="5 kg"), "mass, a time is needed"),
     "a negative time": (lambda: ready().run(time=-1), "0 or more"),
     "no hours": (lambda: ready().run(5, hours=0), "positive"),
