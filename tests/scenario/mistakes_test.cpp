@@ -271,7 +271,7 @@ std::vector<Mistake> const rows{
     {"law that could be typed",
      with("lennard-jones", "yukawa"),
      "26:7",
-     {"unknown law 'yukawa'", "type it: [[influences]] with energy"}},
+     {"unknown law 'yukawa'", "write it as a formula: [[influences]] with energy"}},
     {"no cut-off", with("cutoff = 6\n", ""), "24:1", {"axis x is periodic", "of at most 20 angstrom"}},
     {"unknown law",
      with("law = \"lennard-jones\"", "law = \"lennard-jons\""),
