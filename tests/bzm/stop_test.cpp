@@ -43,7 +43,7 @@ TEST(Stop, EndsTheRunAtARowAndChangesNothingBefore) {
 
   auto const done = bzm({"resume", "stopped"}, folder.string());
   EXPECT_EQ(done.status, 0) << done.err;
-  EXPECT_TRUE(has(done.out, "has ended at step 60 (time > 0.5 ps && temperature > 1 K); --steps N goes on"))
+  EXPECT_TRUE(has(done.out, "has ended at step 60 (time > 0.5 ps && temperature > 1 K); --steps N continues"))
       << done.out;
   EXPECT_EQ(checkpoint_of(folder / "stopped").step, 60);
   ASSERT_EQ(bzm({"resume", "stopped", "--steps", "50", "--quiet"}, folder.string()).status, 0);
@@ -92,7 +92,7 @@ TEST(Hours, EndARunThatBzmResumeGoesOnWith) {
   auto const checkpoint = checkpoint_of(folder / "out");
   EXPECT_GT(checkpoint.step, 0);
   EXPECT_TRUE(has(outcome.err, "out of time after step " + std::to_string(checkpoint.step))) << outcome.err;
-  EXPECT_TRUE(has(outcome.err, "bzm resume out goes on")) << outcome.err;
+  EXPECT_TRUE(has(outcome.err, "bzm resume out continues")) << outcome.err;
   EXPECT_TRUE(fs::exists(folder / "out/picture.png"));
   auto const again = bzm({"resume", "out", "--hours", "0.0001", "--quiet"}, folder.string());
   EXPECT_EQ(again.status, 4) << again.err;
