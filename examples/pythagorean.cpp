@@ -18,7 +18,7 @@ void pythagorean(Program& program) {
 
   PairScheme space(Box({-7, -8, -0.5}, {7, 5, 0.5}));
   space.internal(bodies, gravity(1));
-  Simulation simulation(space, 0.02);  // between two looks
+  Simulation simulation(space, 0.02);  // sampling interval
   simulation.integrate(bodies, Method::gauss_radau);
 
   Recording recording = program.recording(simulation);

@@ -9,7 +9,7 @@ void two_stream(Program& program) {
   double const length = 1e6, k = units(constants::boltzmann), temperature = 16000;
   double const charge = units(constants::elementary_charge), electron = units(constants::electron_mass);
   double const thermal_velocity = std::sqrt(k * temperature / electron);
-  double const in_one = 10;  // electrons that a particle stands for
+  double const in_one = 10;  // electrons that a particle represents
 
   Box const box({0}, {length}, Boundary::periodic);
   Ensemble<Coulomb<1>> right("right", 1000), left("left", 1000), ions("ions", 2000);

@@ -2,7 +2,7 @@
 // own in it.
 //
 //   build/release/examples/window             prints an address; PLAY, STEP, REWD, STOP, QUIT are on that page
-//   build/release/examples/window --play      begins at once, and ends by itself when nobody looks
+//   build/release/examples/window --play      starts immediately; exits when finished if no browser is connected
 #include <boltzmann/boltzmann.hpp>
 
 using namespace boltzmann;

@@ -54,9 +54,8 @@ Words<Boundary> const& boundary_words() {
       "boundary",
       {{Boundary::open, "open", "particles leave freely"},
        {Boundary::reflecting, "reflecting", "elastic walls"},
-       {Boundary::periodic, "periodic", "what leaves on one side enters on the other"},
-       {Boundary::mirror, "mirror",
-        "beyond each wall everything has an image: the walls of smooth particles and of vortices"}}};
+       {Boundary::periodic, "periodic", "particles that leave on one side enter on the other"},
+       {Boundary::mirror, "mirror", "mirror images beyond each wall: walls of smooth particles and of vortices"}}};
   return all;
 }
 std::string to_string(Boundary boundary) { return boundary_words().name(boundary); }
@@ -196,7 +195,7 @@ void Box::shear(Shear const& shear) {
       throw Error(fmt::format(
           "shear: axis {} is a mirror, whose images would not flow; use reflecting, periodic or open", axis(a)));
   if (!regions_.empty())
-    throw Error("shear: a region stands still, in a flow whose images move; leave out one of both");
+    throw Error("shear: regions do not move, but the images of a sheared box do; leave out one of them");
   shear_ = shear;
   slide_ = shear.rate * length(shear.gradient) * time_;
   revision_ = new_revision();
@@ -238,7 +237,7 @@ void Box::check_dimension(int of_region) const {
 }
 
 void Box::install(Region const& region) {
-  if (sheared()) throw Error("region: it stands still, in a sheared box whose images move; leave out one of both");
+  if (sheared()) throw Error("region: regions do not move, but the images of a sheared box do; leave out one of them");
   for (int a = 0; a < dimension_; ++a)
     if (!(region.low[a] < region.high[a]) || !std::isfinite(region.low[a]) || !std::isfinite(region.high[a]))
       throw Error(fmt::format("region: on axis {} the low edge {} is not below the high edge {}", "xyz"[a],

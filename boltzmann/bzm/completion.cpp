@@ -154,10 +154,9 @@ std::string for_fish(std::string const& text) { return replaced(replaced(text, "
 
 std::string fish(std::vector<CommandWords> const& commands) {
   std::string script =
-      "# Completion of bzm for fish: bzm completion fish | source\n"
-      "complete -c bzm -f\n"
-      "complete -c bzm -n __fish_use_subcommand -l help -d 'say what can be said, and stop'\n"
-      "complete -c bzm -n __fish_use_subcommand -l version -d 'the version, and stop'\n";
+      "# Completion of bzm for fish: bzm completion fish | source\ncomplete -c bzm -f\ncomplete -c bzm -n "
+      "__fish_use_subcommand -l help -d 'Show this help'\ncomplete -c bzm -n __fish_use_subcommand -l version -d 'Show "
+      "the version'\n";
   for (auto const& command : commands) {
     script +=
         fmt::format("complete -c bzm -n __fish_use_subcommand -a {} -d '{}'\n", command.name, for_fish(command.doc));

@@ -26,8 +26,8 @@ std::string trajectory_of(std::string const& folder) {
     throw Error("'" + folder + "' holds a sweep; export one of its runs, whose folders begin with their numbers");
   if (!fs::exists(folder + "/trajectory.h5"))
     throw Error("'" + folder +
-                "' has no trajectory.h5 to export: the run was not asked for one (trajectory = 10 in [output] stores a "
-                "frame every 10 steps)");
+                "' has no trajectory.h5 to export: the run stored none (trajectory = 10 in [output] stores a frame "
+                "every 10 steps)");
   return folder + "/trajectory.h5";
 }
 
@@ -44,7 +44,7 @@ int export_run(ExportRun const& options) {
   for (auto const& text : options.species) {
     std::size_t const equals = text.find('=');
     if (equals == std::string::npos || equals == 0 || equals + 1 == text.size())
-      throw Error("--species '" + text + "': write an ensemble and what stands for its particles, as in atoms=Cu");
+      throw Error("--species '" + text + "': write an ensemble and its chemical symbol, as in atoms=Cu");
     chosen.species.emplace_back(text.substr(0, equals), text.substr(equals + 1));
   }
   bool const terminal = isatty(STDERR_FILENO) == 1;
@@ -78,7 +78,7 @@ int export_run(ExportRun const& options) {
 }
 
 std::string export_help() {
-  std::string text = "The ending of FILE says what it is:\n";
+  std::string text = "The extension of FILE chooses the format:\n";
   for (auto const& format : export_formats())
     text += fmt::format("  {:<18} {}: {}.\n  {:<18} For {}.\n", format.suffixes, format.name, format.holds, "",
                         format.readers);

@@ -14,13 +14,13 @@ namespace {
 // Argon at 2/3 of the triple-point density, in two dimensions.
 constexpr char const* starter = R"toml(#:schema ./boltzmann.schema.json
 # A scenario of Boltzmann. Change what you like, then
-#   bzm check @name.toml    shows all mistakes, and runs nothing
-#   bzm run @name.toml      leaves its results in results/@name
+#   bzm check @name.toml    lists all mistakes without running
+#   bzm run @name.toml      writes results to results/@name
 # `bzm list` shows all classes, laws, integrators and diagnoses; `bzm show lennard-jones` explains one.
 
 title = "A gas of argon atoms"
 
-[units]                       # what plain numbers mean, and the units of the results
+[units]                       # units of plain numbers and of results
 base = "custom"               # or si, cgs, reduced (no units), lennard-jones, gravitational, plasma
 length = "1 angstrom"
 mass = "1 amu"
@@ -34,7 +34,7 @@ boundary = "periodic"         # or "open", "reflecting", "mirror"; or one for ea
 [run]
 step = "10 fs"
 steps = 2000
-cutoff = "8.5 angstrom"       # influences between atoms further apart than this are left out
+cutoff = "8.5 angstrom"       # atoms further apart than this do not interact
 seed = 1                      # of all random numbers
 
 [[ensembles]]                 # particles of one class; write as many of these as you need
@@ -44,10 +44,10 @@ integrator = "leap-frog"
 load = { kind = "block", lattice = "square", spacing = "5 angstrom", counts = [16, 16], origin = "centred" }
 mass = "39.948 amu"
 temperature = "120 K"         # velocities from the Maxwell distribution
-remove_drift = true           # so that all atoms together are at rest
+remove_drift = true           # no total momentum
 diameter = "3.4 angstrom"     # for pictures
 
-[[influences]]                # who acts on whom
+[[influences]]                # an interaction
 law = "lennard-jones"
 on = "atoms"                  # within one ensemble; between = ["a", "b"] for two of them
 depth = "0.01032 eV"
@@ -58,7 +58,7 @@ kind = "energies"
 [[diagnoses]]
 kind = "temperature"
 
-[output]                      # every so many steps
+[output]                      # intervals in steps
 diagnoses = 20
 trajectory = 50
 checkpoint = 500
@@ -76,13 +76,13 @@ file = "energies.png"
 // Grains that charge up, touch and spin, in two dimensions.
 constexpr char const* starter_of_class = R"toml(#:schema ./boltzmann.schema.json
 # A scenario of Boltzmann with a class of its own. Change what you like, then
-#   bzm check @name.toml    shows all mistakes, and runs nothing
-#   bzm run @name.toml      leaves its results in results/@name
-# `bzm show classes` and `bzm show classes.fields` explain the keys; `bzm list classes` has those to derive from.
+#   bzm check @name.toml    lists all mistakes without running
+#   bzm run @name.toml      writes results to results/@name
+# `bzm show classes` and `bzm show classes.fields` explain the keys; `bzm list classes` lists the base classes.
 
 title = "Grains that charge up"
 
-[units]                       # what plain numbers mean, and the units of the results
+[units]                       # units of plain numbers and of results
 base = "custom"
 length = "1 mm"
 mass = "1 pg"
@@ -99,14 +99,14 @@ time = "2 s"
 
 [[classes]]
 name = "Grain"
-base = "Newton"               # how it moves, and the fields that it has already: position, velocity, mass
-fields = [                    # kind = "vector" for those with a number for each axis; period = "2 pi" for angles
-  { name = "charge", unit = "e", default = 0, doc = "what it has taken up" },
-  { name = "glow", doc = "how much it has been near others" },
+base = "Newton"               # gives the motion and the first fields: position, velocity, mass
+fields = [                    # kind = "vector" for one number per axis; period = "2 pi" for angles
+  { name = "charge", unit = "e", default = 0, doc = "collected charge" },
+  { name = "glow", doc = "exposure to neighbours" },
 ]
-rate.charge = "(full - charge)/tau"     # how fast it changes, by what the particle knows: a charge in a time
+rate.charge = "(full - charge)/tau"     # rate of change, from fields of the particle: charge per time
 rate.glow = "-glow/tau"
-diffusion.glow = "0.001 1/s"            # noise: a random walk of variance 2 D t; leave it out for none
+diffusion.glow = "0.001 1/s"            # noise: a random walk of variance 2 D t; optional
 parameters = { full = "2000 e", tau = "0.5 s" }
 
 [[ensembles]]
@@ -114,7 +114,7 @@ name = "grains"
 class = "Grain"
 mass = "8 pg"
 load = { kind = "block", lattice = "square", spacing = 0.7, counts = [9, 9], origin = "centred" }
-charge = "10 e"               # at the start; formulas = { charge = "..." } for what depends on the place
+charge = "10 e"               # at the start; formulas = { charge = "..." } if it depends on the position
 diameter = 0.4                # for pictures
 
 [[influences]]                # laws may read the fields of both particles
@@ -122,7 +122,7 @@ energy = "k*p.charge*q.charge/r"
 parameters = { k = "8.9875517923e9 N m^2/C^2" }
 on = "grains"
 
-[[influences]]                # this one moves nobody: it is added to the rate of a field
+[[influences]]                # exerts no force: its value is added to the rate of a field
 changes = "glow"
 influence = "strength*exp(-r/reach)"
 parameters = { strength = "0.5 1/s", reach = "1 mm" }
@@ -135,7 +135,7 @@ quantity = "charge"
 kind = "extremes"
 quantity = "glow"
 
-[output]                      # every so many steps
+[output]                      # intervals in steps
 diagnoses = 10
 trajectory = 20
 
@@ -147,13 +147,13 @@ file = "picture.png"
 // Dust in a plasma: two species with screened interaction, and an external law that confines them.
 constexpr char const* starter_of_law = R"toml(#:schema ./boltzmann.schema.json
 # A scenario of Boltzmann with laws of its own. Change what you like, then
-#   bzm check @name.toml    shows all mistakes, and runs nothing; it samples the laws, too
-#   bzm run @name.toml      leaves its results in results/@name
+#   bzm check @name.toml    lists all mistakes without running; it also samples the laws
+#   bzm run @name.toml      writes results to results/@name
 # `bzm show lennard-jones` prints a shipped law as a formula to begin with; `bzm show influences` explains the keys.
 
 title = "Dust behind a screen"
 
-[units]                       # what plain numbers mean, and the units of the results
+[units]                       # units of plain numbers and of results
 base = "reduced"              # pure numbers; with "si", "custom", ... formulas have units, which are checked
 
 [box]
@@ -181,14 +181,14 @@ charge = 2
 load = { kind = "positions", positions = [[-5, 0], [5, 0], [0, 5], [0, -5]] }
 diameter = 0.6
 
-[[influences]]                # between pairs: an energy, from which forces follow
-energy = "k*p.charge*q.charge*screen/r"       # r: their distance; p.charge, q.charge: fields of both
-where = { screen = "exp(-r/length)" }         # parts with names
-among = ["light", "heavy"]                    # within each, and between the two; on = "light" within one
+[[influences]]                # between pairs: an energy; forces are its derivative
+energy = "k*p.charge*q.charge*screen/r"       # r: distance; p.charge, q.charge: fields of both
+where = { screen = "exp(-r/length)" }         # named parts
+among = ["light", "heavy"]                    # within each and between both; on = "light": within one
 parameters = { k = 1, length = { light = 1, heavy = 1.5 } }
-mixing = { length = "arithmetic" }            # for a light and a heavy one; or { ..., "light-heavy" = 1.2 }
+mixing = { length = "arithmetic" }            # between light and heavy; or { ..., "light-heavy" = 1.2 }
 
-[[influences]]                # from outside: a formula of position (x, y, z), velocity, time and the fields
+[[influences]]                # external: a formula of position (x, y, z), velocity, time and fields
 energy = "0.1*mass*(x^2 + y^2)"
 from_outside = true
 on = "light"
@@ -198,7 +198,7 @@ energy = "0.1*mass*(x^2 + y^2)"
 from_outside = true
 on = "heavy"
 
-[[influences]]                # an influence is a force (or, of tracers, a velocity): here a friction
+[[influences]]                # an influence is a force (for tracers a velocity); here friction
 influence = "-0.05*mass*velocity"
 from_outside = true
 on = "light"
@@ -206,7 +206,7 @@ on = "light"
 [[diagnoses]]                 # columns of diagnoses.csv
 kind = "energies"
 
-[output]                      # every so many steps
+[output]                      # intervals in steps
 diagnoses = 20
 trajectory = 50
 

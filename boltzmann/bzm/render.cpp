@@ -23,7 +23,7 @@ enum class Output { picture, movie, numbered };
 
 Output output_of(std::string const& out) {
   if (out.empty())
-    throw Error("say where the picture goes: -o picture.png, movie.mp4, or a folder for numbered pictures: frames/");
+    throw Error("give the file of the picture: -o picture.png, movie.mp4, or a folder for numbered pictures: frames/");
   if (out.back() == '/') return Output::numbered;
   std::string const extension = fs::path(out).extension().string();
   if (ends_as_picture(out)) return Output::picture;
@@ -70,7 +70,7 @@ int render(RenderOptions const& options) {
   if (holds_sweep(options.folder))
     throw Error("'" + options.folder + "' holds a sweep; draw one of its runs, whose folders begin with their numbers");
   if (!holds_run(options.folder))
-    throw Error("'" + options.folder + "' holds no run that could be drawn: neither scenario.toml nor " + run_file);
+    throw Error("'" + options.folder + "' contains no run that can be drawn: neither scenario.toml nor " + run_file);
   std::string const ffmpeg = find_program("ffmpeg");
   if (kind == Output::movie && ffmpeg.empty())
     throw Error(
@@ -81,7 +81,7 @@ int render(RenderOptions const& options) {
     throw Error(fmt::format("a movie has 1 to 240 frames per second, not {}", options.frames_per_second));
   if (!fs::exists(options.folder + "/trajectory.h5"))
     throw Error("'" + options.folder +
-                "' has no trajectory.h5 to draw: the run was not asked for one; trajectory = 10 in [output], or --set "
+                "' has no trajectory.h5 to draw: the run stored none; trajectory = 10 in [output], or --set "
                 "output.trajectory=10, stores a frame every 10 steps");
   auto const scenario = load_stored_run(options.folder);
   StoredPictures pictures(*scenario, options.folder, options.picture, PlainNumbers::shown);

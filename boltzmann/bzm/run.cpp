@@ -49,7 +49,7 @@ void print_notes(ScenarioSimulation const& scenario, bool quiet) {
 }
 
 void refuse_in_window(std::optional<double> const& hours, WindowRun const& window) {
-  if (hours && window.open) throw Error("--hours is for runs without a --window, where somebody may pause and go on");
+  if (hours && window.open) throw Error("--hours is for runs without --window, where you may pause and continue");
 }
 
 /// Reads the scenario on rank 0, which alone has a standard input, and broadcasts it.
@@ -69,7 +69,7 @@ std::string calculating(ScenarioSimulation const& scenario) {
 
 int status_of(SweepReport const& report, std::string const& folder) {
   if (report.interrupted || report.out_of_time) {
-    fmt::print(stderr, "bzm resume {} goes on with the sweep\n", folder);
+    fmt::print(stderr, "bzm resume {} continues the sweep\n", folder);
     return report.interrupted ? 130 : out_of_time_status;
   }
   return report.failed > 0 ? 3 : 0;
@@ -83,7 +83,7 @@ int run_recording(ScenarioSimulation const& scenario, Recording& recording, std:
                           ? run_in_window(scenario, recording, steps, window, quiet)
                           : run_with_progress(recording, static_cast<std::uint64_t>(std::max<std::int64_t>(steps, 0)),
                                               {.quiet = quiet, .planned = planned, .seconds = wall.seconds()});
-  if (report.out_of_time) fmt::print(stderr, "bzm resume {} goes on with the run\n", recording.folder());
+  if (report.out_of_time) fmt::print(stderr, "bzm resume {} continues the run\n", recording.folder());
   return report.interrupted ? 130 : report.out_of_time ? out_of_time_status : 0;
 }
 
@@ -98,9 +98,9 @@ int run(RunOptions const& options) {
   std::string const folder = options.out.empty() ? "results/" + scenario->name : options.out;
   FolderLock const lock = lock_folder(folder);
   if (holds_sweep(folder) && !options.force)
-    throw Error("'" + folder +
-                "' already holds a sweep; go on with it by bzm resume, choose another folder, or replace "
-                "it with --force");
+    throw Error(
+        "'" + folder +
+        "' already holds a sweep; continue it with bzm resume, choose another folder, or replace it with --force");
   if (scenario->sweep) waiting.reset();
   print_notes(*scenario, options.quiet);
   if (scenario->sweep && options.window.open) {
@@ -142,7 +142,7 @@ bool begun_without_checkpoint(std::string const& folder) {
   }
   if (later)
     throw Error(
-        fmt::format("'{0}' has results but no checkpoint.h5 to go on from; 'bzm run {0}/scenario.toml --out {0} "
+        fmt::format("'{0}' has results but no checkpoint.h5 to continue from; 'bzm run {0}/scenario.toml --out {0} "
                     "--force' runs it again and replaces them",
                     folder));
   return true;
@@ -175,16 +175,15 @@ int resume(ResumeOptions const& options) {
   if (holds_sweep(options.folder)) {
     if (options.steps)
       throw Error("'" + options.folder +
-                  "' holds a sweep, whose runs go to their planned ends; --steps N is for one of "
-                  "its folders");
+                  "' holds a sweep, whose runs continue to their planned ends; --steps N is for one of its folders");
     return status_of(resume_sweep(options.folder, options.threads, options.quiet, wall), options.folder);
   }
   if (team().first_says(begun_without_checkpoint(options.folder))) return start_again(options, wall);
   auto const checkpoint = read_checkpoint(path);
   if (checkpoint.scenario.empty())
     throw Error("'" + path +
-                "' was written by a program, which alone knows its laws: run that one again with "
-                "BOLTZMANN_RESUME=1 before it, and it goes on");
+                "' was written by a program, which contains its laws: run that program again with BOLTZMANN_RESUME=1 "
+                "in the environment to continue");
   auto const scenario = parse_scenario(checkpoint.scenario, path, {{}, {}, {}, options.threads});
   std::int64_t planned = scenario->steps;
   if (auto const stored = checkpoint.state.find("planned"); stored != checkpoint.state.end() && !stored->second.empty())
@@ -198,12 +197,12 @@ int resume(ResumeOptions const& options) {
   if (!options.quiet) {
     print_heading(*scenario, options.folder);
     if (steps > 0)
-      fmt::print("goes on from step {} to {}\n", checkpoint.step, planned);
+      fmt::print("continues from step {} to {}\n", checkpoint.step, planned);
     else if (auto const met = checkpoint.state.find("stopped");
              met != checkpoint.state.end() && met->second.at(0) == static_cast<double>(checkpoint.step))
-      fmt::print("has ended at step {} ({}); --steps N goes on from there\n", checkpoint.step, scenario->stop);
+      fmt::print("has ended at step {} ({}); --steps N continues from there\n", checkpoint.step, scenario->stop);
     else
-      fmt::print("is already at its last step, {}; --steps N goes on from there\n", checkpoint.step);
+      fmt::print("is already at its last step, {}; --steps N continues from there\n", checkpoint.step);
     std::fflush(stdout);
   }
   return run_recording(*scenario, *recording, steps, planned, options.quiet, wall, options.window);

@@ -92,15 +92,15 @@ int stored_runs(std::string const& folder, std::uint16_t port) {
   if (!fs::is_directory(folder)) throw Error("there is no folder '" + folder + "' with a run to show");
   if (auto const living = living_window(folder)) {
     if (isatty(STDOUT_FILENO) == 1)
-      say(fmt::format("the run in '{}' is going on; its window: {}", folder, *living));
+      say(fmt::format("the run in '{}' is in progress; its window: {}", folder, *living));
     else
-      say(fmt::format("the run in '{0}' is going on; the address of its window is in {0}/window.txt", folder));
+      say(fmt::format("the run in '{0}' is in progress; the address of its window is in {0}/window.txt", folder));
     return 0;
   }
   RunList list(folder);
   bool const single = holds_run(folder);
   if (!single && !list.any())
-    throw Error("'" + folder + "' holds no run that could be shown, nor does a folder below it");
+    throw Error("'" + folder + "' contains no run that can be shown, nor does a folder below it");
   Clients clients(port, [&](std::string_view path) { return list.picture(path); });
   bool stopped = false;
   if (single) {
@@ -127,7 +127,7 @@ int write_page(WindowCommand const& command) {
   std::string const& out = command.page.out;
   if (!out.ends_with(".html") && !out.ends_with(".htm"))
     throw Error("'" + out + "' is no page: its name ends in .html (bzm render makes pictures and movies)");
-  if (command.folder.empty()) throw Error("say which run the page shows: bzm window results/copper -o " + out);
+  if (command.folder.empty()) throw Error("give the run that the page shows: bzm window results/copper -o " + out);
   if (holds_sweep(command.folder))
     throw Error("'" + command.folder + "' holds a sweep; show one of its runs, whose folders begin with their numbers");
   auto const page = replay_page(command.folder, {command.page.views, command.page.frames, command.page.megabytes});

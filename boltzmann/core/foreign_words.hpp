@@ -30,13 +30,13 @@ inline constexpr std::array foreign_terms{
                 "`freeze` in [[ensembles.set]] keeps particles where they are, and integrator = \"deactivate\" a "
                 "whole ensemble"},
     ForeignTerm{"addforce|aveforce|efield|externalforce|customexternalforce|add_force|additional_forces",
-                "a force from outside is a table [[influences]] with law = \"uniform-gravity\", "
-                "\"uniform-electric-field\", or typed with from_outside = true"},
+                "an external force is a table [[influences]] with law = \"uniform-gravity\", "
+                "\"uniform-electric-field\", or a formula with from_outside = true"},
     ForeignTerm{"spring/self|spring/tether|restrain|position_restraints|posres",
                 "particles of class Tethered are held at their anchors by law = \"tether\""},
     ForeignTerm{"wall/reflect|wall/lj93|wall/lj126|wall/harmonic|wall/gran|nwall",
                 "walls are boundary = \"reflecting\" or \"mirror\" of [box], with [[box.walls]]; a wall with a force "
-                "is a typed law with from_outside = true"},
+                "is a formula law with from_outside = true"},
     ForeignTerm{"deform|sllod|nvt/sllod", "a box is sheared by `shear` of [box]"},
     ForeignTerm{"shake|rattle|settle|constraints|lincs|rigid|rigid/small|rigid_body|distance_constraint",
                 "bonds of a fixed length are tables [[rigid_bonds]]"},
@@ -44,13 +44,14 @@ inline constexpr std::array foreign_terms{
     ForeignTerm{"evaporate|absorbing_boundary", "particles leave where boundary = \"open\""},
     // ---- pair potentials ----
     ForeignTerm{"pair_coeff|pair_modify|special_bonds|force_field|forcefield|nonbonded|nonbondedforce|nlist",
-                "a law between particles is a table [[influences]] with law = \"lennard-jones\" or a typed energy"},
+                "a law between particles is a table [[influences]] with law = \"lennard-jones\" or an energy formula"},
     ForeignTerm{"eam|eam/alloy|eam/fs|eam/cd|embedded-atom|embedded_atom",
                 "embedded atoms are the table [embedded_atoms], with potential = \"file\" for eam.alloy and eam.fs"},
     ForeignTerm{"sw|stillinger-weber", "bonds with angles between them are the table [stillinger_weber]"},
     ForeignTerm{"buck|buck/coul/long|buckingham|born|mie|mie/cut|yukawa|lj96/cut|lj/expand|wca|lj/charmm/coul/long|"
                 "ljwca|force_lj|expanded_lj|zbl|moliere|gauss|gaussian|dpd/conservative|table|tabulated|zhou|beck",
-                "it is no shipped law; type it: [[influences]] with energy = \"...\", a formula of r, and parameters = "
+                "it is not built in; write it as a formula: [[influences]] with energy = \"...\", a formula of r, and "
+                "parameters = "
                 "{ ... }"},
     ForeignTerm{"lj/cut/coul/long|lj/cut/coul/cut|lj/long/coul/long",
                 "it is two tables: [[influences]] with law = \"lennard-jones\", and [mesh] with law = \"coulomb\""},
@@ -72,7 +73,7 @@ inline constexpr std::array foreign_terms{
                 "lists are kept for you; `skin` of [run] is their margin"},
     ForeignTerm{"run_style|respa|r-respa|mts", "slow laws have `every` of [[influences]]"},
     ForeignTerm{"thermo_style|thermo_modify|nstenergy|logger|statedatareporter",
-                "what is measured are tables [[diagnoses]], written every `diagnoses` steps of [output]"},
+                "measurements are tables [[diagnoses]], written every `diagnoses` steps of [output]"},
     ForeignTerm{"nstxout|nstxtcout|gsd|dcd|dcdreporter|simulationarchive|write_data|write_restart|read_restart",
                 "files are keys of [output]: trajectory, checkpoint; bzm export writes other formats"},
     ForeignTerm{"ave/time|ave/chunk|ave/correlate|fix print|variable|compute reduce|compute_reduce",
@@ -90,11 +91,11 @@ inline constexpr std::array foreign_terms{
                 "fields on a mesh are the table [mesh] with cells and assignment"},
     // ---- not available ----
     ForeignTerm{"granular|gran/hooke|gran/hertz|gran/hooke/history|gran/hertz/history|hertz|hooke/history|dem|ligghts",
-                "Boltzmann has no granular contacts with friction and history; a typed law can repel and damp"},
+                "Boltzmann has no granular contacts with friction and history; a formula law can repel and damp"},
     ForeignTerm{"meam|meam/c|tersoff|airebo|rebo|reaxff|reax/c|reax|comb|comb3|bop|edip|adp|snap|mliap|pace|deepmd|"
                 "quip|gap|nequip|allegro|mace|gayberne|gay_berne|alj|eff",
                 "Boltzmann does not have it; metals are [embedded_atoms], silicon is [stillinger_weber], and laws of "
-                "pairs can be typed"},
+                "pairs can be formulas"},
     ForeignTerm{
         "maxwell|yee|pml|electromagnetic|fdtd|ckc|laser|antenna|psatd|esirkepov|mcc|ionization|dsmc|"
         "collisions|boosted_frame",
@@ -106,7 +107,7 @@ inline constexpr std::array foreign_terms{
                 "drude|colvars|lb/fluid|mpcd|srd|qbmm|tad|prd|phonon",
                 "Boltzmann does not have it"},
     ForeignTerm{"hard_sphere|hardsphere|collision_resolve|event_driven|edmd",
-                "Boltzmann has no hard spheres; a typed law can repel at short distance"},
+                "Boltzmann has no hard spheres; a formula law can repel at short distance"},
     ForeignTerm{"group|molecule_template|atom_style|atom_modify|newton|package|suffix|processors|comm_modify",
                 "no such thing is needed: kinds of particles are tables [[ensembles]]"}};
 

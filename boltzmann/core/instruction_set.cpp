@@ -74,7 +74,7 @@ InstructionSet detail::choose_instruction_set(char const* word, std::vector<Inst
   auto const at = std::find(words.begin(), words.end(), word);
   if (at != words.end()) return available[static_cast<std::size_t>(at - words.begin())];
   if (std::find(all.begin(), all.end(), word) != all.end())
-    throw Error("BOLTZMANN_INSTRUCTIONS asks for " + std::string(word) +
+    throw Error("BOLTZMANN_INSTRUCTIONS requests " + std::string(word) +
                 ", which this processor can't run; it can run " + join(words));
   throw Error("BOLTZMANN_INSTRUCTIONS is '" + std::string(word) + "', which is no instruction set of this library; " +
               (words.size() == 1 ? "the only one is " : "there are ") + join(words) + did_you_mean(word, words));

@@ -245,18 +245,16 @@ Team* join() {
   std::string const several = told.size > 1 ? fmt::format("{} processes", told.size) : "processes";
   Opened const opened = open_plugin();
   if (opened.plugin.path.empty())
-    refuse(told,
-           fmt::format("a launcher has started {} of this, but there is no libboltzmann_mpi.so that makes them one "
-                       "run; {}",
-                       several, how_to_make_mpi_plugin()));
+    refuse(told, fmt::format("a launcher has started {} of this program, but there is no libboltzmann_mpi.so that "
+                             "makes them one run; {}",
+                             several, how_to_make_mpi_plugin()));
   if (!opened.functions) refuse(told, fmt::format("'{}' can't be used: {}", opened.plugin.path, opened.plugin.reason));
   auto const [error, rank, size] = join_launched(*opened.functions, told);
   if (error != 0) refuse(told, fmt::format("MPI can't begin (its error {})", error));
   if (told.size > 1 && size != told.size)
-    refuse(told,
-           fmt::format("a launcher has started {} of this, but MPI knows of {}: '{}' was compiled with another MPI "
-                       "({}) than that of the launcher",
-                       several, size, opened.plugin.path, opened.plugin.library));
+    refuse(told, fmt::format("a launcher has started {} of this program, but MPI counts {}: '{}' was compiled with "
+                             "another MPI ({}) than that of the launcher",
+                             several, size, opened.plugin.path, opened.plugin.library));
   auto* const team = new Team(*opened.functions, nullptr, rank, size);  // never freed: its exit handler runs last
   team->patience(patience());
   if (std::string const line = different_start(*team); !line.empty()) {

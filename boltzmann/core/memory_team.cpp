@@ -23,7 +23,7 @@ namespace {
 
 constexpr std::size_t page = 1 << 16;  // unit of growth of outboxes, in bytes
 constexpr std::size_t few = 1024;      // numbers that every rank adds up by itself
-constexpr char const* no_memory = "there is no memory for what ranks tell each other";
+constexpr char const* no_memory = "not enough shared memory for the messages between ranks";
 
 /// The state of a rank that all others see. Zeros, as in a new file, are its initial value.
 struct Head {
@@ -302,7 +302,7 @@ bool MemoryTeam::done() {
         auto const there = said_to_this(message.rank);
         auto& at = before[static_cast<std::size_t>(message.rank)];
         auto const size = static_cast<std::size_t>(message.count);
-        if (at + size > there.size()) end_all("a message between ranks has another size than is asked for");
+        if (at + size > there.size()) end_all("a message between ranks has another size than the receiver expects");
         std::memcpy(message.bytes, there.data() + at, size);
         at += size;
       }

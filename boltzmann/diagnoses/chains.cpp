@@ -75,7 +75,7 @@ void Chains::measure(Sample const& sample, std::vector<double>& values) {
     auto const found = std::find_if(sample.ensembles.begin(), sample.ensembles.end(),
                                     [&](AnyEnsemble const* ensemble) { return ensemble->name() == name; });
     if (found == sample.ensembles.end())
-      throw Error(fmt::format("a diagnosis looks for ensemble '{}', which is not in the simulation", name));
+      throw Error(fmt::format("a diagnosis needs ensemble '{}', which is not in the simulation", name));
     check_chains(**found, length_);
     ChainSizes sizes;
     for (std::size_t first = 0; first < (*found)->size(); first += length_)

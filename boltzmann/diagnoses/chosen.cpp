@@ -21,7 +21,7 @@ AnyEnsemble const& ensemble_named(std::vector<AnyEnsemble const*> const& availab
 
 std::vector<std::string> chosen_names(std::vector<AnyEnsemble const*> const& available,
                                       std::vector<std::string> const& names) {
-  if (available.empty()) throw Error("a diagnosis needs an ensemble to look at; the simulation has none");
+  if (available.empty()) throw Error("a diagnosis needs an ensemble; the simulation has none");
   for (auto const& name : names) ensemble_named(available, name);
   if (!names.empty()) return names;
   std::vector<std::string> all;
@@ -32,7 +32,7 @@ std::vector<std::string> chosen_names(std::vector<AnyEnsemble const*> const& ava
 std::size_t index_in(Sample const& sample, std::string const& name) {
   for (std::size_t e = 0; e < sample.ensembles.size(); ++e)
     if (sample.ensembles[e]->name() == name) return e;
-  throw Error(fmt::format("a diagnosis looks for ensemble '{}', which is not in the simulation", name));
+  throw Error(fmt::format("a diagnosis needs ensemble '{}', which is not in the simulation", name));
 }
 
 AnyEnsemble const& ensemble_of(Sample const& sample, std::string const& name) {
@@ -44,7 +44,7 @@ void check_chosen(std::vector<AnyEnsemble const*> const& available, std::vector<
   auto const chosen = chosen_names(available, names);
   if (particles.empty()) return;
   if (chosen.size() != 1)
-    throw Error(fmt::format("a group of chosen particles belongs to one ensemble; say which of {}", join(chosen)));
+    throw Error(fmt::format("a group of chosen particles belongs to one ensemble; name one of {}", join(chosen)));
   for (auto const* ensemble : available)
     if (ensemble->name() == chosen.front())
       for (auto const i : particles)
@@ -57,7 +57,7 @@ void check_chosen(std::vector<AnyEnsemble const*> const& available, std::vector<
                   std::span<std::uint32_t const> particles, std::span<std::uint32_t const> partners) {
   check_chosen(available, names, particles);
   check_chosen(available, names, partners);
-  if (particles.empty() && !partners.empty()) throw Error("'partners' are those of a group; say which by 'particles'");
+  if (particles.empty() && !partners.empty()) throw Error("'partners' belong to a group; choose it with 'particles'");
   std::vector<std::uint32_t> both(particles.begin(), particles.end());
   both.insert(both.end(), partners.begin(), partners.end());
   std::sort(both.begin(), both.end());
@@ -73,7 +73,7 @@ std::vector<std::uint32_t> members_of(AnyEnsemble const& ensemble, std::span<std
   }
   if (auto const last = std::max_element(members.begin(), members.end());
       last != members.end() && *last >= ensemble.size())
-    throw Error(fmt::format("a diagnosis looks for particle {} of '{}', which has {} now", *last, ensemble.name(),
+    throw Error(fmt::format("a diagnosis needs particle {} of '{}', which has {} now", *last, ensemble.name(),
                             ensemble.size()));
   return members;
 }

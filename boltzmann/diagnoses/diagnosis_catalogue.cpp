@@ -144,215 +144,205 @@ OptionTable told(std::vector<OptionKey> const& keys) { return diagnosis_options(
 
 std::vector<Entry> const& table() {  // long: a table, an entry for each diagnosis
   static std::vector<Entry> const entries = [] {
-    OptionKey const each{"ensembles", "one set of columns for each of them", "of each ensemble there is"};
+    OptionKey const each{"ensembles", "ensembles, with columns for each", "each ensemble"};
     std::vector<OptionKey> const group{each, {"label"}, {"particles"}, {"similar_velocity"}, {"tolerance"}};
     std::vector<OptionKey> group_and_quantity = group;
     group_and_quantity.push_back({"quantity", "a field, `\"speed\"`, `\"kinetic-energy\"`, ...", "", "\"speed\""});
     OptionKey const on_mesh{"quantity", "`\"field.x\"`, `\"potential\"` or `\"density\"`", "`\"field.x\"`"};
-    OptionKey const pairs_of{"ensembles", "of one: pairs within it; of two: between them", "of all particles"};
-    OptionKey const first_look{"since", "the time of the first look", "the start"};
-    OptionKey const rows{"every", "only rows whose steps are multiples of it count"};
-    OptionKey const lags{"count", "the longest lag, in looks", "`200`"};
-    OptionKey const group_label{"label", "of columns and files", "by the ensemble"};
-    OptionKey const moving{"subtract_drift", "relative to the mean of the ensemble"};
-    OptionKey const some{"ensembles", "only of these", "all of the matter"};
+    OptionKey const pairs_of{"ensembles", "pairs within one ensemble, or between two", "all particles"};
+    OptionKey const first_look{"since", "time of the first sample", "the start"};
+    OptionKey const rows{"every", "steps between samples; must divide into the rows' steps"};
+    OptionKey const lags{"count", "longest lag, in samples", "`200`"};
+    OptionKey const group_label{"label", "name in columns and files", "that of the ensemble"};
+    OptionKey const moving{"subtract_drift", "measure relative to the mean of the ensemble"};
+    OptionKey const some{"ensembles", "only these ensembles", "all matter"};
     return std::vector<Entry>{
         {{"energies", "kinetic, potential, external, internal and total energy",
-          told({{"ensembles", "the kinetic energy of each of them, too", "of none"}})},
+          told({{"ensembles", "ensembles with columns of their own kinetic energy", "none"}})},
          instruments::make_energies},
-        {{"momentum", "total momentum: the sum of m v", told({{"ensembles"}})}, instruments::make_momentum},
-        {{"angular-momentum", "the sum of m r x v about the origin or the centre of mass; conserved in open space only",
+        {{"momentum", "total momentum, the sum of m v", told({{"ensembles"}})}, instruments::make_momentum},
+        {{"angular-momentum", "sum of m r x v about the origin or the centre of mass; conserved in open space only",
           told({{"ensembles"}, {"about_centre_of_mass"}})},
          instruments::make_angular_momentum},
         {{"vortex-invariants",
-          "circulation, linear and angular impulse of vortices, in 3D helicity: what a flow without viscosity "
-          "conserves "
-          "in open space",
+          "circulation, linear and angular impulse of vortices, in 3D helicity: conserved by inviscid flow in open "
+          "space",
           told({{"ensembles"}})},
          instruments::make_vortex_invariants},
         {{"vortex-energy",
-          "of the flow of vortices in open space: energy (2D: Hamilton's function) and enstrophy over the density of "
-          "the "
-          "fluid, the largest vorticity at an element, in 3D how much of the vorticity has a divergence; sums over all "
-          "pairs",
+          "flow of vortices in open space: energy (2D: Hamilton's function) and enstrophy over density, largest "
+          "vorticity of an element, in 3D the part of the vorticity with a divergence; sums over all pairs",
           {},
           false,
           true},
          instruments::make_vortex_energy},
         {{"body-forces",
-          "what a flow does to the bodies in it, over its density and in the mean since the row before: on all of them "
-          "by "
-          "the change of the flow's impulse, with drag and lift coefficients, and on each by pressure",
+          "force of a flow on bodies over its density, averaged since the last row: on all by the change of the flow's "
+          "impulse, with drag and lift coefficients; on each by pressure",
           told({{"stream"}, {"length"}})},
          make_body_forces},
         {{"temperature", "m <v^2> / k along each axis and their mean", told({{"ensembles"}, {"subtract_drift"}})},
          instruments::make_temperature},
-        {{"pressure", "the pressure tensor (sum of m v v + virial) / volume and the mean of its diagonal", {}},
+        {{"pressure", "pressure tensor (sum of m v v + virial) / volume and the mean of its diagonal", {}},
          instruments::make_pressure},
-        {{"viscosity",
-          "of a sheared box: shear stress over rate, with friction between pairs; the mean is that of `average`",
-          {}},
+        {{"viscosity", "sheared box: shear stress over rate, with pair friction; average it with `average`", {}},
          instruments::make_viscosity},
         {{"number", "number of particles and their mass", told({{"ensembles"}})}, instruments::make_number},
         {{"entropy",
-          "entropy S / N k of an ideal gas of smooth particles, as a sum over them and as an integral, with and "
-          "without the fluctuations of their velocities",
+          "entropy S / N k of an ideal gas of smooth particles, as a sum and as an integral, with and without velocity "
+          "fluctuations",
           told({{"ensembles"}, {"weight"}, {"range"}, {"gamma"}})},
          instruments::make_entropy},
         {{"heat-flux",
-          "of smooth particles between two walls with temperatures: heat conducted, heat carried by the flow, and "
-          "Nusselt's number with its mean and spread",
-          told({{"axis", "from wall to wall", "the last"}, {"conductivity", "", "", "0.1"}, {"since"}})},
+          "smooth particles between two walls at given temperatures: conducted and convected heat, and the Nusselt "
+          "number with mean and spread",
+          told({{"axis", "axis from wall to wall", "the last"}, {"conductivity", "", "", "0.1"}, {"since"}})},
          make_heat_flux},
         {{"slab",
-          "kinetic (about the mean velocity) and internal temperature, density, velocity and place of the particles "
-          "that were between two places at the start",
+          "kinetic temperature (about the mean velocity), internal temperature, density, velocity and position of the "
+          "particles that were initially in a slab",
           told({some,
-                {"label", "of the columns", "`\"slab\"`"},
-                {"axis", "across the slab", "`\"x\"`"},
+                {"label", "name of the columns", "`\"slab\"`"},
+                {"axis", "axis across the slab", "`\"x\"`"},
                 {"from"},
                 {"to"},
-                {"count", "equal slabs side by side", "`1`"}})},
+                {"count", "adjacent slabs of equal width", "`1`"}})},
          make_slab},
         {{"shock",
-          "place and speed of a plane shock front, the matter behind and ahead of it in windows that move with it, and "
-          "by how much Rankine's and Hugoniot's three conditions fail",
+          "position and speed of a plane shock front, states behind and ahead of it in windows that move along, and "
+          "the errors of the three Rankine-Hugoniot conditions",
           told({some,
-                {"axis", "along which the shock runs", "`\"x\"`"},
+                {"axis", "axis of the shock", "`\"x\"`"},
                 {"end"},
-                {"quantity", "the front is where it is half way between ahead and behind", "`\"velocity\"`", "",
+                {"quantity", "quantity whose half-way value marks the front", "`\"velocity\"`", "",
                  option::word({"velocity", "density"})},
-                {"count", "bins of the profile that shows the front", "as they fit"},
+                {"count", "bins of the profile that shows the front", "automatic"},
                 {"since"},
                 {"margin"},
                 {"near"},
                 {"far"}})},
          make_shock},
-        {{"mean-velocity", "of a group of particles: its change is the drag", told(group)},
+        {{"mean-velocity", "mean velocity of a group of particles; its change is the drag", told(group)},
          instruments::make_mean_velocity},
-        {{"velocity-diffusion", "mean square spread of the velocities of a group of particles", told(group)},
+        {{"velocity-diffusion", "variance of the velocities of a group of particles", told(group)},
          instruments::make_velocity_diffusion},
         {{"diffusion",
-          "mean square displacement of particles, relative to their mean and followed through periodic axes, and the "
-          "diffusion coefficient by a straight line through it",
+          "mean square displacement, relative to the mean and across periodic axes, and the diffusion coefficient from "
+          "a linear fit",
           told({each, {"since"}})},
          [](DiagnosisParameters const& parameters) -> std::unique_ptr<Diagnosis> {
            return std::make_unique<Diffusion>(parameters.available, parameters.ensembles, parameters.since);
          }},
         {{"radial-distribution",
-          "height and place of the highest peak of g(r), over the looks so far; g(r) and the running coordination "
+          "height and position of the highest peak of g(r), averaged over samples; g(r) and the running coordination "
           "number in radial-distribution.csv",
           told({pairs_of,
-                {"label", "of columns and file", "the ensembles"},
+                {"label", "name in columns and file", "the ensembles"},
                 {"particles"},
                 {"partners"},
-                {"to", "the largest distance", "half of the box's shortest side"},
+                {"to", "largest distance", "half of the shortest side"},
                 {"count", "bins", "`200`"},
                 rows,
                 first_look})},
          make_radial_distribution},
         {{"structure-factor",
-          "height and place of the highest value of S(k), over the wave vectors of a periodic box; S(k) in "
+          "height and position of the highest value of S(k) over the wave vectors of a periodic box; S(k) in "
           "structure-factor.csv",
           told({pairs_of,
-                {"label", "of columns and file", "the ensembles"},
+                {"label", "name in columns and file", "the ensembles"},
                 {"particles"},
                 {"partners"},
-                {"modes", "the shortest wave: so many periods in the longest side", "`12`"},
+                {"modes", "periods of the shortest wave in the longest side", "`12`"},
                 {"by"},
                 rows,
                 first_look})},
          make_structure_factor},
         {{"bond-order",
-          "how far the directions to neighbours are those of a crystal: in 3D Steinhardt's q6 (fcc 0.575, bcc 0.629), "
-          "in 2D psi6 (triangles 1), in the mean over particles and of the whole, and the mean number of neighbours",
-          told({{"ensembles", "among the particles of one", "among all"},
-                {"label", "of the columns", "the ensemble"},
-                {"range", "neighbours are within it", "", "1.5"},
-                {"order", "4 sees squares and cubes, 6 triangles and close packing", "`6`"}})},
+          "crystal order of neighbours: in 3D Steinhardt's q6 (fcc 0.575, bcc 0.629), in 2D psi6 (triangles 1); "
+          "particle mean, global value and mean number of neighbours",
+          told({{"ensembles", "ensemble of the particles and neighbours", "all"},
+                {"label", "name of the columns", "the ensemble"},
+                {"range", "range of neighbours", "", "1.5"},
+                {"order", "symmetry: 4 for squares and cubes, 6 for triangles and close packing", "`6`"}})},
          make_bond_order},
         {{"velocity-autocorrelation",
-          "the diffusion coefficient of Green and Kubo, from many time origins; <v(0).v(t)> in "
-          "velocity-autocorrelation.csv, its spectrum in velocity-spectrum.csv",
+          "Green-Kubo diffusion coefficient, from many time origins; <v(0).v(t)> in velocity-autocorrelation.csv, its "
+          "spectrum in velocity-spectrum.csv",
           told({each, group_label, {"particles"}, first_look, {"every"}, lags, {"origins"}, moving})},
          make_time_correlation<VelocityAutocorrelation>},
         {{"mean-square-displacement",
-          "the diffusion coefficient of Einstein, by the later half of the mean square displacement from many time "
-          "origins, followed through periodic axes; that in mean-square-displacement.csv",
+          "Einstein diffusion coefficient from the later half of the mean square displacement, from many time origins "
+          "and across periodic axes; file mean-square-displacement.csv",
           told({each, group_label, {"particles"}, first_look, {"every"}, lags, {"origins"}, moving})},
          make_time_correlation<MeanSquareDisplacement>},
         {{"green-kubo",
-          "a transport coefficient by the autocorrelation of the system's flux in equilibrium, from row to row; that "
-          "in "
-          "green-kubo-viscosity.csv and the like",
+          "transport coefficient from the autocorrelation of the system's flux in equilibrium, sampled at each row; "
+          "file green-kubo-viscosity.csv and the like",
           told({{"quantity", "the coefficient", "", "\"viscosity\"", option::word(transport_words().names())},
-                {"count", "the longest lag, in rows", "`200`"},
+                {"count", "longest lag, in rows", "`200`"},
                 first_look})},
          make_green_kubo},
         {{"mean-profile",
-          "the lowest and the highest density, temperature, ... of bins along an axis, over the looks so far; the "
-          "profiles in mean-profile.csv",
+          "lowest and highest density, temperature, ... of bins along an axis, averaged over samples; profiles in "
+          "mean-profile.csv",
           told({some,
-                {"label", "of columns and file", "none"},
-                {"quantity", "with commas, what the drawing `profile` has: `\"density, pressure.xx\"`",
+                {"label", "name in columns and file", "none"},
+                {"quantity", "quantities of the drawing `profile`, separated by commas: `\"density, pressure.xx\"`",
                  "`\"density, kinetic-temperature\"`"},
-                {"axis", "across the bins", "`\"x\"`"},
-                {"from", "where the bins begin"},
-                {"to", "where they end"},
+                {"axis", "axis of the bins", "`\"x\"`"},
+                {"from", "lower end of the bins"},
+                {"to", "upper end of the bins"},
                 {"count", "bins", "`50`"},
                 first_look})},
          make_mean_profile},
         {{"average",
-          "of columns of the diagnoses above: the mean over the rows so far, its error by blocks of rows, and their "
-          "ratio; the run's last lines tell them, average.csv has the error by the length of blocks",
-          told({{"columns"}, {"label", "of the file", "none"}, first_look})},
+          "columns of the diagnoses above: running mean, its error by block averaging, and their ratio; printed at the "
+          "end of the run. average.csv has the error by block length",
+          told({{"columns"}, {"label", "name of the file", "none"}, first_look})},
          make_average},
         {{"chains",
-          "of chains of particles, one behind the other: mean squares of the distance from end to end and of the "
-          "radius "
-          "of gyration, and the root of the mean square bond",
+          "chains of particles stored one after the other: mean square end-to-end distance, mean square radius of "
+          "gyration, and rms bond length",
           told({each, {"count", "particles of a chain", "", "20"}})},
          [](DiagnosisParameters const& parameters) -> std::unique_ptr<Diagnosis> {
            return std::make_unique<Chains>(parameters.available, parameters.ensembles, parameters.count);
          }},
         {{"extremes", "minimum, maximum and mean of a quantity over a group of particles", told(group_and_quantity)},
          instruments::make_extremes},
-        {{"formula",
-          "what a formula makes of the particles of an ensemble, with mean(...), sum(...), min(...) and max(...) over "
-          "them",
+        {{"formula", "a formula with mean(...), sum(...), min(...) and max(...) over the particles of an ensemble",
           told({each,
-                {"label", "of the column", "", "\"order\""},
+                {"label", "name of the column", "", "\"order\""},
                 {"formula", "", "", "\"norm(mean(velocity))/mean(speed)\""},
                 {"parameters"},
                 {"where"},
                 {"particles"}})},
          formula_diagnosis},
-        {{"histogram", "which part of the particles of an ensemble has values of a formula in each of some bins",
+        {{"histogram", "histogram: fraction of the particles of an ensemble whose formula has a value in each bin",
           told({each,
-                {"label", "of the columns", "", "\"speeds\""},
-                {"formula", "of one particle", "", "\"speed\""},
-                {"from", "the lower end of the first bin", "", "0", option::number(option::of_what_is_shown)},
-                {"to", "the upper end of the last bin", "", "10", option::number(option::of_what_is_shown)},
+                {"label", "name of the columns", "", "\"speeds\""},
+                {"formula", "quantity of one particle", "", "\"speed\""},
+                {"from", "lower end of the first bin", "", "0", option::number(option::of_what_is_shown)},
+                {"to", "upper end of the last bin", "", "10", option::number(option::of_what_is_shown)},
                 {"count", "bins", "`20`"},
                 {"parameters"},
                 {"where"},
                 {"particles"}})},
          histogram_diagnosis},
-        {{"field-energy", "of a mesh: half the integral of density times potential, the energy of its field", {}, true},
+        {{"field-energy", "energy of a mesh's field, half the integral of density times potential", {}, true},
          instruments::make_field_energy},
-        {{"field-mode",
-          "of a mesh: amplitude, real and imaginary part of c in Re(c exp(i k x)), the wave with so many periods in "
-          "the box along each axis",
+        {{"field-mode", "complex amplitude c of a mode Re(c exp(i k x)) of a mesh",
           told({{"mode", "", "", "[3]"}, on_mesh}), true},
          instruments::make_field_mode},
-        {{"wave-spectrum", "of a mesh: no columns; records a quantity for the drawing wave-spectrum",
-          told({on_mesh, {"axis", "along which waves run", "`\"x\"`"}, {"modes"}}), true},
+        {{"wave-spectrum", "records a quantity of a mesh for the drawing wave-spectrum; no columns",
+          told({on_mesh, {"axis", "axis of the waves", "`\"x\"`"}, {"modes"}}), true},
          instruments::make_wave_spectrum},
-        {{"box", "volume and lengths of the box, and the mass of all particles over the volume", {}},
+        {{"box", "volume and lengths of the box, and mass density", {}},
          [](DiagnosisParameters const& parameters) -> std::unique_ptr<Diagnosis> {
            return std::make_unique<BoxMeasures>(dimension_of(parameters));
          }},
-        {{"energy-balance", "energy, work of moving walls, heat of baths, and what is left: the first less these", {}},
+        {{"energy-balance",
+          "energy, work of moving walls, heat of baths, and energy less these, which is conserved",
+          {}},
          [](DiagnosisParameters const&) -> std::unique_ptr<Diagnosis> { return std::make_unique<EnergyBalance>(); }},
     };
   }();

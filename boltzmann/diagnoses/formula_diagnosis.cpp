@@ -44,10 +44,9 @@ class OfEnsembles : public Diagnosis {
     for (auto const* ensemble : parameters.available)
       if (parameters.ensembles.empty()) ensembles_.push_back(ensemble->name());
     for (auto const& name : parameters.ensembles) ensembles_.push_back(name);
-    if (ensembles_.empty()) throw Error("a diagnosis needs an ensemble to look at; the simulation has none");
+    if (ensembles_.empty()) throw Error("a diagnosis needs an ensemble; the simulation has none");
     if (!particles_.empty() && ensembles_.size() > 1)
-      throw Error(
-          fmt::format("a group of chosen particles belongs to one ensemble; say which of {}", join(ensembles_)));
+      throw Error(fmt::format("a group of chosen particles belongs to one ensemble; name one of {}", join(ensembles_)));
     for (auto const& name : ensembles_) {
       AnyEnsemble const& ensemble = named(parameters.available, name);
       for (auto const i : particles_)

@@ -25,7 +25,7 @@ class GroupDiagnosis : public Diagnosis {
       throw Error("a group is given by particle numbers or by a velocity, not by both");
     check_chosen(parameters.available, names_, particles_);
     if (!label_.empty() && names_.size() != 1)
-      throw Error(fmt::format("a group of chosen particles belongs to one ensemble; say which of {}", join(names_)));
+      throw Error(fmt::format("a group of chosen particles belongs to one ensemble; name one of {}", join(names_)));
     if (!(tolerance_ >= 0))
       throw Error(fmt::format("the tolerance of a group must not be negative, it is {}", tolerance_));
     for (auto const& name : names_) prefixes_.push_back(label_.empty() ? name : label_);

@@ -150,7 +150,7 @@ RadialDistribution::RadialDistribution(std::vector<AnyEnsemble const*> const& av
   chosen_names(available, names);
   if (names.size() > 2)
     throw Error(fmt::format("a radial distribution is of one ensemble or between two, not of {}", join(names)));
-  if (options_.every < 1) throw Error("a radial distribution is looked at every so many steps, 1 or more");
+  if (options_.every < 1) throw Error("the sampling interval of a radial distribution must be 1 step or more");
   if (options_.count < 1) throw Error("a radial distribution needs a bin");
   if (options_.to <= 0) throw Error(fmt::format("a radial distribution needs a distance above 0, not {}", options_.to));
   if (label_.empty())
@@ -198,10 +198,9 @@ void RadialDistribution::count_pairs(Sample const& sample) {
   }
   for (int a = 0; a < box.dimension(); ++a)  // a box may shrink
     if (reach_ > (box.periodic(a) ? 0.5 : 1.0) * box.length(a) * (1 + 1e-12))
-      throw Error(
-          fmt::format("radial-distribution: the box has become too short along axis {} for pairs up to {}; say "
-                      "less by 'to'",
-                      "xyz"[a], box.spoken_units().text(reach_, dimensions::length, 6)));
+      throw Error(fmt::format(
+          "radial-distribution: the box is now too short along axis {} for pairs up to {}; set a smaller 'to'",
+          "xyz"[a], box.spoken_units().text(reach_, dimensions::length, 6)));
   auto const& names = options_.ensembles;
   bool const within = partners_each_ == 2;
   std::vector<double> first, second;

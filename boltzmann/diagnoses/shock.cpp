@@ -178,8 +178,8 @@ void Shock::begin(Box const& box, MassiveParticles const& bodies, double boltzma
     bool const low = from_low > noise, high = from_high > noise;  // false without a wall
     if (!low && !high)
       throw Error(
-          fmt::format("no wall at an end of {} runs into the matter: say from which end the shock comes, low "
-                      "or high",
+          fmt::format("no wall at an end of {} runs into the matter; set end = \"low\" or \"high\", the end from "
+                      "which the shock comes",
                       "xyz"[axis]));
     end_ = low && !(from_high > from_low) ? Box::End::low : Box::End::high;
   }

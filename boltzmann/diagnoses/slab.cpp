@@ -94,7 +94,7 @@ Slab::Slab(std::vector<AnyEnsemble const*> const& ensembles, SlabOptions options
     : options_(std::move(options)),
       dimension_(ensembles.empty() ? 0 : ensembles.front()->dimension()),
       ensembles_(ensembles.size()) {
-  if (ensembles.empty()) throw Error("a slab needs particles to look at; the simulation has none");
+  if (ensembles.empty()) throw Error("a slab needs particles; the simulation has none");
   if (options_.axis < 0 || options_.axis >= dimension_)
     throw Error(fmt::format("a slab along axis {}: the space has {} ax{}", "xyz"[std::clamp(options_.axis, 0, 2)],
                             dimension_, dimension_ == 1 ? "is" : "es"));

@@ -124,7 +124,7 @@ UniformSamples sample_uniformly(std::span<double const> positions, std::span<dou
   if (positions.size() != values.size())
     throw Error(fmt::format("sample_uniformly: {} positions but {} values; there must be one value for each position",
                             positions.size(), values.size()));
-  if (n < 2) throw Error(fmt::format("sample_uniformly: {} point(s) asked for; at least 2 are needed", n));
+  if (n < 2) throw Error(fmt::format("sample_uniformly: {} point(s) requested; at least 2 are needed", n));
   for (std::size_t i = 0; i < positions.size(); ++i)
     if (!std::isfinite(positions[i]) || !std::isfinite(values[i]))
       throw Error(fmt::format("sample_uniformly: particle {} has position {} and value {}; both must be finite", i,

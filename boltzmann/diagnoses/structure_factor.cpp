@@ -165,7 +165,7 @@ StructureFactor::StructureFactor(std::vector<AnyEnsemble const*> const& availabl
   if (options_.ensembles.size() > 2)
     throw Error(
         fmt::format("a structure factor is of one ensemble or between two, not of {}", join(options_.ensembles)));
-  if (options_.every < 1) throw Error("a structure factor is looked at every so many steps, 1 or more");
+  if (options_.every < 1) throw Error("the sampling interval of a structure factor must be 1 step or more");
   if (options_.modes < 1) throw Error("a structure factor needs a wave of one period in the box or more");
   if (label_.empty())
     for (auto const& name : options_.ensembles) label_ += (label_.empty() ? "" : " ") + name;

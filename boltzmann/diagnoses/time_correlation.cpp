@@ -57,14 +57,14 @@ TimeCorrelation::TimeCorrelation(std::vector<AnyEnsemble const*> const& availabl
   check_chosen(available, options_.ensembles, options_.particles);
   auto const names = chosen_names(available, options_.ensembles);
   if (!options_.label.empty() && names.size() != 1)
-    throw Error(fmt::format("a label is that of one ensemble; say which of {}", join(names)));
+    throw Error(fmt::format("a label belongs to one ensemble; name one of {}", join(names)));
   for (auto const& name : names) {
     Followed& one = followed_.emplace_back();
     one.name = name;
     one.sums = one.squares = one.numbers = std::vector<double>(options_.count + 1, 0.0);
   }
   if (options_.every < 1 || options_.count < 1 || options_.origins < 1)
-    throw Error("a time correlation needs looks ('every'), lags ('count') and origins, one or more of each");
+    throw Error("a time correlation needs samples ('every'), lags ('count') and origins, one or more of each");
   dimension_ = available.front()->dimension();
   spacing_ = std::max<std::size_t>(1, (options_.count + options_.origins - 1) / options_.origins);
 }
@@ -76,8 +76,9 @@ std::vector<std::uint32_t> TimeCorrelation::members(AnyEnsemble const& ensemble)
 void TimeCorrelation::note_time(Sample const& sample) {
   if (looks_ == 1) interval_ = sample.time - first_time_;
   if (looks_ > 1 && std::abs(sample.time - last_time_ - interval_) > 1e-6 * std::abs(interval_))
-    throw Error(fmt::format("a time correlation looks at equal times; {} follows {}, before that the interval was {}",
-                            sample.time, last_time_, interval_));
+    throw Error(
+        fmt::format("a time correlation needs equal sampling intervals; {} follows {}, before that the interval was {}",
+                    sample.time, last_time_, interval_));
   if (looks_ == 0) first_time_ = sample.time;
   last_time_ = sample.time;
   ++looks_;

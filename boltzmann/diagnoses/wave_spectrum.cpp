@@ -35,7 +35,7 @@ void WaveSpectrum::measure(Sample const& sample, std::vector<double>&) {
   if (looks_ == 1) interval_ = sample.time - first_;
   if (looks_ > 1 && std::abs(sample.time - last_ - interval_) > 1e-6 * std::abs(interval_))
     throw Error(
-        fmt::format("wave spectrum: looks must be at equal times; {} follows {}, before that the interval was {}",
+        fmt::format("wave spectrum: sampling intervals must be equal; {} follows {}, before that the interval was {}",
                     sample.time, last_, interval_));
   if (looks_ == 0) first_ = sample.time;
   last_ = sample.time;
@@ -85,7 +85,7 @@ bool WaveSpectrum::enough() const { return looks_ >= min_looks && std::abs(inter
 
 WavePower WaveSpectrum::power() const {
   if (!enough())
-    throw Error(fmt::format("a wave spectrum needs {} or more looks at different times, not {}", min_looks, looks_));
+    throw Error(fmt::format("a wave spectrum needs {} or more samples at different times, not {}", min_looks, looks_));
   std::size_t const looks = looks_, columns = 2 * modes_ + 1, rows = looks / 2 + 1;
   WavePower result;
   result.dimension = dimension_;

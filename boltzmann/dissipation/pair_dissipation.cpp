@@ -152,8 +152,8 @@ void PairDissipation::check() {
     if (!member->dissipates) continue;
     AnyEnsemble const& ensemble = *member->ensemble;
     if (!member->at_fixed_temperature && !member->law)
-      throw Error(fmt::format("ensemble '{}' has internal energies but no state law: say what its heat capacity is",
-                              ensemble.name()));
+      throw Error(
+          fmt::format("ensemble '{}' has internal energies but no heat capacity; set heat_capacity", ensemble.name()));
     for (std::size_t i = 0; i < ensemble.size(); ++i) {
       double const* row = ensemble.row(i);
       if (!(row[member->mass] > 0))

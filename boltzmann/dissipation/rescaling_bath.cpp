@@ -41,7 +41,7 @@ void RescalingBath::settle(Surroundings const& surroundings) {
                 "' has no degree of freedom to act on: one particle whose momentum is conserved does not get warm");
   if (!(now.kinetic > 0) && !surroundings.equilibrates)
     throw Error("the heat bath of '" + own.front()->name() +
-                "' scales velocities, and nobody moves: give the ensemble a temperature");
+                "' scales velocities, but no particle moves: give the ensemble a temperature");
 }
 
 RescalingBath::Motion RescalingBath::motion() const {
@@ -100,7 +100,7 @@ void RescalingBath::advance(StepContext const& context) {
   double const freedom = degrees(now), kT = boltzmann_constant() * temperature_at(context.time);
   if (!(freedom > 0)) return;  // no moving particle is in its block
   if (!(now.kinetic > 0)) {
-    if (kT > 0) throw PhysicsFailure("a heat bath scales velocities, and nobody in it moves");
+    if (kT > 0) throw PhysicsFailure("a heat bath scales velocities, but no particle in it moves");
     return;
   }
   double const scale = factor(now.kinetic, freedom, kT, context);

@@ -20,7 +20,7 @@
 namespace boltzmann {
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "the raw data of VTK files say LittleEndian");
+static_assert(std::endian::native == std::endian::little, "VTK files with raw data must be LittleEndian");
 
 // Removes blanks, which separate columns, from a name.
 std::string word(std::string text) {

@@ -36,7 +36,7 @@ double time_of(std::string const& path) {
   std::size_t const at = text.find("TimeValue");
   std::size_t const begin = at == std::string::npos ? at : text.find('>', at);
   if (begin == std::string::npos)
-    throw Error(fmt::format("'{}' is no whole mesh frame; remove it to go on without", path));
+    throw Error(fmt::format("'{}' is an incomplete mesh frame; remove it to continue without it", path));
   return std::strtod(text.c_str() + begin + 1, nullptr);
 }
 

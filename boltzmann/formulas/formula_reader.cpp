@@ -52,7 +52,7 @@ class Reader {
     if (text_[at_] == '=') throw error("'=' compares nothing; write '=='");
     if (is_letter(text_[at_]) || is_digit(text_[at_]) || text_[at_] == '(' || text_[at_] == '.')
       throw error(fmt::format("an operator is missing before '{}': write e.g. 2*x, not 2 x", quoted(word())));
-    throw error(fmt::format("'{}' can't stand here", quoted(character())));
+    throw error(fmt::format("'{}' is not allowed here", quoted(character())));
   }
 
  private:
@@ -399,7 +399,7 @@ class Reader {
     if (hint.empty()) hint = did_you_mean(found, words);
     if (hint.empty() && found == "e") hint = "; powers of e are exp(x)";
     if (hint.empty() && names_.with_parameters && found.find('.') == std::string::npos)
-      hint = fmt::format("; a number of your own stands in parameters = {{ {} = 1 }}", quoted(found));
+      hint = fmt::format("; define a constant of your own with parameters = {{ {} = 1 }}", quoted(found));
     return {begin, fmt::format("unknown name '{}'{}", name, choices_with(hint, known))};
   }
   std::optional<FormulaValue> value_of(std::string const& name) {

@@ -62,8 +62,7 @@ class WordReader {
       std::string const where = fmt::format("where number {} of {} of the {} is to be", all.size() + 1, count, what);
       for (auto const& word : line(where)) {
         if (all.size() == count)
-          throw wrong(
-              fmt::format("'{}' stands behind the last of the {} numbers of the {}", quoted(word), count, what));
+          throw wrong(fmt::format("'{}' follows the last of the {} numbers of the {}", quoted(word), count, what));
         all.push_back(number(word));
       }
     }
@@ -199,8 +198,8 @@ FileTables read_tables(std::string const& path) {
   words.line("a comment");
   if (words.line("the atomic number, mass and lattice").size() < 2)
     throw words.wrong(
-        "neither setfl, whose line 4 says how many elements there are and their names, nor funcfl, whose line 2 has "
-        "the atomic number, mass and lattice of one");
+        "neither setfl (line 4 has the number of elements and their names) nor funcfl (line 2 has the atomic number, "
+        "mass and lattice of one element)");
   return read_funcfl(words);
 }
 

@@ -37,7 +37,7 @@ class GroAtoms {
     if (width_ == 0) width_ = width_of(lines_);
     std::size_t const end = first_number + 3 * width_;
     if (line.size() < end)
-      throw lines_.error(fmt::format("an atom's line ends before its z, which stands in columns {} to {}",
+      throw lines_.error(fmt::format("an atom's line ends before its z, which is in columns {} to {}",
                                      first_number + 2 * width_ + 1, end));
     for (std::size_t a = 0; a < 3; ++a)
       frame_.columns[0].values.push_back(number(first_number + a * width_, "position"));

@@ -33,7 +33,7 @@ constexpr std::array left_sections{
     LeftSection{"Bonds", "bonds", "`bonds` of the ensemble gives them"},
     LeftSection{"Angles", "angles", "`angles` of [[influences]] gives them"},
     LeftSection{"Dihedrals", "dihedrals", "`dihedrals` of [[influences]] gives them"},
-    LeftSection{"Impropers", "impropers", "`dihedrals` of [[influences]] may stand for them"},
+    LeftSection{"Impropers", "impropers", "use `dihedrals` of [[influences]] instead"},
     LeftSection{"Ellipsoids", "ellipsoids", "particles are points or spheres"},
     LeftSection{"Lines", "lines", "particles are points or spheres"},
     LeftSection{"Triangles", "triangles", "particles are points or spheres"},
@@ -121,7 +121,7 @@ class DataReader {
       throw lines_.error(
           fmt::format("'{}' is neither a line of the header nor a section", boltzmann::quoted(lines_.line())));
     if (!header_.insert(name).second)
-      throw lines_.error(fmt::format("the header says '{}' twice", boltzmann::quoted(name)));
+      throw lines_.error(fmt::format("the header has '{}' twice", boltzmann::quoted(name)));
     if (numbers == 2 && n == 4 && words_[2].size() == 3 && words_[2].ends_with("lo") && words_[3].ends_with("hi"))
       return read_edges();
     if (numbers == 3 && is(3, "xy")) {
@@ -175,8 +175,8 @@ class DataReader {
     for (auto const& [section, counted, how] : left_sections) {
       if (section != name) continue;
       if (!counted.empty() && rows != count(std::string(counted)))
-        throw lines_.ended(
-            fmt::format("the section {} has {} lines, the header says {}", name, rows, count(std::string(counted))));
+        throw lines_.ended(fmt::format("the section {} has {} lines, the header announces {}", name, rows,
+                                       count(std::string(counted))));
       return frame_.left_aside.push_back(fmt::format("section {} ({} lines; {})", name, rows, how));
     }
     if (name.ends_with("Labels")) return;
@@ -193,8 +193,8 @@ class DataReader {
   void check_counts() const {
     for (auto const& [section, counted, how] : left_sections)
       if (!counted.empty() && count(std::string(counted)) > 0 && !sections_.contains(std::string(section)))
-        throw lines_.ended(fmt::format("the header says {} {}, and there is no section {}", count(std::string(counted)),
-                                       counted, section));
+        throw lines_.ended(fmt::format("the header announces {} {}, but there is no section {}",
+                                       count(std::string(counted)), counted, section));
   }
 
   void read_labels() {
@@ -226,7 +226,7 @@ class DataReader {
     if (told.empty()) return;
     AtomStyle const* const found = find_atom_style(told);
     if (found && said_ && found != style_)
-      throw lines_.error(fmt::format("the file says style {}, the scenario {}; leave `style` out, or mend the file",
+      throw lines_.error(fmt::format("the file has style {}, the scenario {}; leave `style` out, or correct the file",
                                      found->name, style_->name));
     if (!found && !said_) throw lines_.error(fmt::format("atom style {}", unknown_style(told)));
     if (found) style_ = found;
@@ -302,7 +302,7 @@ class DataReader {
   }
 
   void read_velocities() {
-    if (!sections_.contains("Atoms")) throw lines_.error("Velocities stand before Atoms");
+    if (!sections_.contains("Atoms")) throw lines_.error("Velocities come before Atoms");
     bool const spins = style_ && style_->spins;
     velocity_.assign(3 * order_.size(), 0);
     spin_.assign(spins ? 3 * order_.size() : 0, 0);
@@ -335,7 +335,7 @@ class DataReader {
                                      boltzmann::quoted(std::string_view(word))));
     }
     if (types != counts_.end() && (number < 1 || number > types->second))
-      throw lines_.ended(fmt::format("there is no type {}; the header says {} atom types", number, types->second));
+      throw lines_.ended(fmt::format("there is no type {}; the header announces {} atom types", number, types->second));
     return word;
   }
 
@@ -348,7 +348,7 @@ class DataReader {
     if (auto const types = counts_.find("atom types");
         types != counts_.end() && !masses_.empty() && masses_.size() != types->second)
       throw lines_.ended(
-          fmt::format("Masses has {} types, the header says {} atom types", masses_.size(), types->second));
+          fmt::format("Masses has {} types, the header announces {} atom types", masses_.size(), types->second));
     for (auto& [label, type] : frame_.labels) type = number_of(type);
     for (auto& species : frame_.species) species = number_of(species);
     auto& type = frame_.columns[2].values;

@@ -116,7 +116,7 @@ class PdbReader {
     ++atoms_;
     if (frames_ != wanted_) return;
     std::string_view const line = lines_.line();
-    if (line.size() < 54) throw lines_.error("an atom's line ends before its z, which stands in columns 47 to 54");
+    if (line.size() < 54) throw lines_.error("an atom's line ends before its z, which is in columns 47 to 54");
     for (std::size_t a = 0; a < 3; ++a) frame_.columns[0].values.push_back(number(31 + 8 * a, 38 + 8 * a, "position"));
     if (auto const place = columns(line, 17, 17); !place.empty() && place != "A" && place != "1")
       throw lines_.error(

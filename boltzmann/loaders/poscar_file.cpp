@@ -115,7 +115,7 @@ class PoscarReader {
     }
     bool const direct = letter() == 'd';
     if (letter() != ' ' && letter() != 'c' && letter() != 'k' && !direct)
-      throw lines_.error(fmt::format("'{}' follows the {} atoms; velocities stand behind a blank line",
+      throw lines_.error(fmt::format("'{}' follows the {} atoms; velocities must follow a blank line",
                                      boltzmann::quoted(lines_.line()), frame_.size()));
     do {
       if (!lines_.next()) return;
@@ -137,7 +137,7 @@ class PoscarReader {
           fmt::format("'{}' follows the {} velocities", boltzmann::quoted(lines_.line()), frame_.size()));
     while (lines_.next())
       if (letter() != ' ')
-        return frame_.left_aside.push_back("what VASP's predictor needs to go on (a run here begins anew)");
+        return frame_.left_aside.push_back("data for VASP's predictor (a run here starts without them)");
   }
 
  private:
@@ -152,7 +152,7 @@ class PoscarReader {
       std::size_t const at = k < words.size() && words[k].size() > 1 && words[k][0] == '.' ? 1 : 0;
       char const flag = k < words.size() ? static_cast<char>(words[k][at] | 0x20) : ' ';
       if (flag != 't' && flag != 'f')
-        throw lines_.error("with selective dynamics, T or F for each of three axes stands behind a position");
+        throw lines_.error("with selective dynamics, T or F for each of three axes must follow a position");
       held = held || flag == 'f';
     }
     return held;

@@ -61,11 +61,11 @@ double minimum_distance_of(AnyEnsemble const& ensemble, Box const& box, RandomLo
   if (!(distance >= 0) || !std::isfinite(distance))
     throw Error(fmt::format("random load: the minimum distance must not be negative, it is {}", distance));
   if (fraction == 0 || ensemble.size() == 0) return distance;
-  if (distance > 0) throw Error("random load: a packing fraction says the minimum distance, too; leave one out");
+  if (distance > 0) throw Error("random load: a packing fraction sets the minimum distance, too; leave one out");
   if (options.where || !box.regions().empty())
     throw Error(
-        "random load: a packing fraction is of the whole box, of which 'where' and regions leave an unknown part; give "
-        "the minimum distance");
+        "random load: a packing fraction refers to the whole box, of which 'where' and regions leave an unknown part; "
+        "give the minimum distance");
   check_packing(fraction, box.dimension());
   return distance_for_packing(box, ensemble.size(), fraction);
 }

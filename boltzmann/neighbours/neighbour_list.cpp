@@ -69,7 +69,7 @@ void NeighbourList::build(SortedCopy const& target, SortedCopy const& source, do
   skin_ = skin;
   std::size_t const all = target.owned();
   if (!filter_.start.empty() && filter_.start.size() != all + 1)
-    throw Error(fmt::format("ensemble '{}' had {} particles when its bonded pairs were told, now it has {}",
+    throw Error(fmt::format("ensemble '{}' had {} particles when its bonded pairs were set, now it has {}",
                             target.ensemble().name(), filter_.start.size() - 1, all));
   if (size() != all) {
     row_.resize(all);

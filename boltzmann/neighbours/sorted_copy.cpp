@@ -75,8 +75,8 @@ SortedCopy::SortedCopy(AnyEnsemble const& ensemble, Box const& box, std::size_t 
 
 void SortedCopy::components(std::vector<ImageComponent> components) {
   if (components.size() != row_block * all_blocks())
-    throw Error(fmt::format("images of '{}': there are rules for {} numbers of a row, which has {}", ensemble_->name(),
-                            components.size(), row_block * all_blocks()));
+    throw Error(fmt::format("images of '{}': there are transformations for {} numbers of a row, which has {}",
+                            ensemble_->name(), components.size(), row_block * all_blocks()));
   for (auto const& component : components)
     for (int const axis : {component.axis, component.axis2})
       if (axis < 0 || axis >= box_->dimension())

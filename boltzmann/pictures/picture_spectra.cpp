@@ -71,7 +71,7 @@ void check_waves(Question const& question) {
 Canvas draw_wave_spectrum(Scene& scene) {
   WaveSpectrum const& waves = recorded_waves(scene.context.diagnoses, scene.picture.y);
   if (!waves.enough())
-    return scene.too_few(fmt::format("a wave spectrum needs 4 or more looks, not {}", waves.looks()));
+    return scene.too_few(fmt::format("a wave spectrum needs 4 or more samples, not {}", waves.looks()));
   WavePower const spectrum = waves.power();
   auto const& k = spectrum.wave_number;
   auto const& omega = spectrum.frequency;

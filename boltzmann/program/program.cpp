@@ -39,26 +39,26 @@ std::vector<Program::Option> const& Program::options() {
   using O = Option;
   using Text = std::string;
   static std::vector<Option> const all{
-      {"--out", "DIR", "folder for the results", [](P& p, O const&, Text const& v) { p.folder_ = v; }},
-      {"--steps", "N", "number of steps",
+      {"--out", "DIR", "Folder for the results", [](P& p, O const&, Text const& v) { p.folder_ = v; }},
+      {"--steps", "N", "Number of steps",
        [](P& p, O const& o, Text const& v) { p.steps_ = static_cast<std::uint64_t>(o.number(v, 0, 9e15)); }},
-      {"--time", "T", "how long: 20, \"20 ps\"; as many steps as it takes",
+      {"--time", "T", "Length of the run instead of a number of steps: 20, \"20 ps\"",
        [](P& p, O const&, Text const& v) { p.time_ = v; }},
-      {"--threads", "N", "number of threads",
+      {"--threads", "N", "Number of threads",
        [](P& p, O const& o, Text const& v) { p.threads_ = static_cast<int>(o.number(v, 1, 4096)); }},
-      {"--seed", "N", "seed of all random numbers",
+      {"--seed", "N", "Seed of all random numbers",
        [](P& p, O const& o, Text const& v) { p.seed_ = static_cast<std::uint64_t>(o.number(v, 0, 9e15)); }},
-      {"--hours", "H", "wall time, after which it stops with a checkpoint",
+      {"--hours", "H", "Wall-clock limit; the run stops before it with a checkpoint",
        [](P& p, O const& o, Text const& v) { p.wall_ = std::make_shared<WallTime>(o.number(v, 1e-6, 1e6, false)); }},
-      {"--resume", "", "go on with the run in the folder", [](P& p, O const&, Text const&) { p.resume_ = true; }},
-      {"--window", "", "in a window: prints the address of a page",
+      {"--resume", "", "Continue the run in the folder", [](P& p, O const&, Text const&) { p.resume_ = true; }},
+      {"--window", "", "Show the run in a browser page, whose address is printed",
        [](P& p, O const&, Text const&) { p.window_ = true; }},
-      {"--play", "", "with --window: begin at once, and end with the last step",
+      {"--play", "", "With --window: start immediately; exit after the last step",
        [](P& p, O const&, Text const&) { p.play_ = true; }},
-      {"--port", "N", "of the window's page",
+      {"--port", "N", "Port for the web page",
        [](P& p, O const& o, Text const& v) { p.port_ = static_cast<int>(o.number(v, 0, 65535)); }},
-      {"--quiet", "", "no progress line and no table", [](P& p, O const&, Text const&) { p.quiet_ = true; }},
-      {"--help", "", "this, and stop", [](P& p, O const&, Text const&) { p.help_ = true; }}};
+      {"--quiet", "", "Print no progress line and no table", [](P& p, O const&, Text const&) { p.quiet_ = true; }},
+      {"--help", "", "Show this help", [](P& p, O const&, Text const&) { p.help_ = true; }}};
   return all;
 }
 
@@ -93,7 +93,7 @@ Program::Program(int argc, char** argv, std::string folder) : folder_(std::move(
       throw Error(fmt::format("{} needs a value, {} {}", name, name, found->value));
     found->take(*this, *found, found->value.empty() ? "" : attached ? word.substr(name.size() + 1) : argv[++i]);
   }
-  if (steps_ && !time_.empty()) throw Error("--steps and --time say the same; leave one out");
+  if (steps_ && !time_.empty()) throw Error("--steps and --time both set the length; leave one out");
 }
 
 std::uint64_t Program::seed(std::uint64_t otherwise) {
@@ -133,13 +133,13 @@ bool has_noise(Simulation const& simulation) {
 
 RunReport Program::run(Recording& recording, std::uint64_t steps) {
   if (seed_ && !seed_asked_ && !has_noise(recording.simulation()))
-    throw Error("--seed: nothing in this program asks for a seed (Program::seed), so that it would change nothing");
+    throw Error("--seed: this program uses no seed (Program::seed), so it would change nothing");
   if (!time_.empty()) return run_for(recording, in_units(time_, dimensions::time, recording.units()));
   if (signalled_) throw Stopped{130};  // the signal came after the last step of the previous run
   std::uint64_t const planned = steps_.value_or(steps);
   bool const in_window = window_ || in_window_;
-  if (play_ && !in_window) throw Error("--play is for a --window");
-  if (wall_ && in_window) throw Error("--hours is for runs without a window, where somebody may pause and go on");
+  if (play_ && !in_window) throw Error("--play needs --window");
+  if (wall_ && in_window) throw Error("--hours is for runs without --window, where you may pause and continue");
   RunReport report;
   if (in_window) {
 #ifdef BOLTZMANN_WITH_WINDOW

@@ -90,7 +90,7 @@ std::string too_few_looks(Correlator const& one, Plan const& plan) {
                      late ? " from 'since' on" : "", one.result,
                      looks > 2 ? fmt::format("count = {}", looks / 2)
                      : late    ? "run longer, or take an earlier 'since'"
-                               : "run longer, or look more often");
+                               : "run longer, or sample more often");
 }
 
 std::string warning_of(Diagnosis const& diagnosis, Plan const& plan) {

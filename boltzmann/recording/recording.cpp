@@ -133,8 +133,7 @@ struct Recording::State {
     char const* said = std::getenv("BOLTZMANN_RESUME");
     std::string_view const asked = said ? said : "";
     if (!asked.empty() && asked != "0" && asked != "1")
-      throw Error(
-          fmt::format("BOLTZMANN_RESUME is 1 (go on with the run in the folder) or 0, not '{}'", quoted(asked)));
+      throw Error(fmt::format("BOLTZMANN_RESUME is 1 (continue the run in the folder) or 0, not '{}'", quoted(asked)));
     std::error_code ignored;
     return scenario.empty() && asked == "1" && std::filesystem::exists(checkpoint_path(), ignored);
   }
@@ -143,7 +142,7 @@ struct Recording::State {
     check();
     if (resume_asked())
       throw Error("BOLTZMANN_RESUME=1: the run in '" + folder.name() +
-                  "' goes on where the program calls run_with_progress, or Recording::resume() itself");
+                  "' continues where the program calls run_with_progress, or Recording::resume() itself");
     std::vector<std::string> files;
     for (auto const& picture : pictures) files.push_back(picture.file);
     for (auto const& file : rows.gathered_files()) files.push_back(file);

@@ -64,7 +64,7 @@ void RunFrames::check(Checkpoint const& saved, std::string const& path) const {
                     path, saved.step));
   // This also finds damage of HDF5's own tables, which would make later writes fail.
   if (auto const damage = stored.find_damage(count); !damage.empty())
-    fmt::print(stderr, "warning: {}; the run goes on, and the frame stays as it is\n", damage);
+    fmt::print(stderr, "warning: {}; the run continues, and the frame stays as it is\n", damage);
 }
 
 void RunFrames::go_on(std::string const& path, Checkpoint const& saved) {

@@ -24,7 +24,7 @@ class Among {
     read_names();
     for (char const* key : {"on", "by", "between", "connect", "from_outside"})
       if (Entry const* entry = table_.find(key))
-        mistake(entry->place, fmt::format("{}: 'among' says on whom already; leave one out", key));
+        mistake(entry->place, fmt::format("{}: 'among' already chooses the ensembles; leave one out", key));
     read_mixing();
     if (reading_.context.mistakes.count() != before) return {};
     std::vector<Item> tables;

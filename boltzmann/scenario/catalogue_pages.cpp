@@ -85,7 +85,7 @@ struct TableOfKinds {
 };
 constexpr TableOfKinds tables_of_kinds[] = {
     {"dissipation", "[[dissipation]]", "friction and noise between the steps", "kind", of<dissipation_kinds>},
-    {"diagnoses", "[[diagnoses]]", "what is measured, as columns of diagnoses.csv", "kind", of<diagnosis_kinds>},
+    {"diagnoses", "[[diagnoses]]", "measurements, as columns of diagnoses.csv", "kind", of<diagnosis_kinds>},
     {"output.pictures", "[[output.pictures]]", "a picture of the last state, as a file", "drawing", of<drawings>},
     {"views", "[[views]]", "a drawing that the window's page offers, by its `name`", "drawing", of<drawings>}};
 
@@ -258,10 +258,10 @@ void show_typed(Page& page, LawInfo const& law) {
   for (int d = least; d <= greatest; ++d) {
     if (text(d).empty() || (d < greatest && text(d) == text(d + 1))) continue;
     bool const all = text(least) == text(greatest);
-    page.print("\n  the same as a typed law{}\n", all && vectors && least < greatest
-                                                      ? fmt::format(", with its vectors in {}D", d)
-                                                  : all ? ""
-                                                        : fmt::format(", in {}D", d));
+    page.print("\n  the same as a formula law{}\n", all && vectors && least < greatest
+                                                        ? fmt::format(", with its vectors in {}D", d)
+                                                    : all ? ""
+                                                          : fmt::format(", in {}D", d));
     show_typed(page, law, d, text(d));
   }
 }
@@ -271,7 +271,7 @@ void show_law(Page& page, LawInfo const& law) {
   if (law.kind == LawKind::pair)
     page.print("  between       {} (influenced) and {}, or classes derived from them\n", law.target, law.source);
   else
-    page.print("  acts on       {} and classes derived from it, from outside\n", law.target);
+    page.print("  acts on       {} and classes derived from it, as an external law\n", law.target);
   page.print("  dimensions    {} to {}\n", law.least_dimension, law.greatest_dimension);
   if (law.kind == LawKind::pair)
     page.print("  symmetry      {}\n", law.symmetry == Symmetry::antisymmetric ? "Newton's third law"
@@ -293,9 +293,9 @@ void show_material(Page& page, MaterialInfo const& material) {
   if (material.tabulated) page.print("    points or file      at least two, of rising density\n");
   if (material.typed)
     page.print(
-        "    pressure            formula of density and specific_energy, \"0.4*density*specific_energy\"\n"
-        "    temperature         likewise; without it there is none\n"
-        "    sound_speed         likewise; without it that of this pressure\n");
+        "    pressure            formula of density and specific_energy, \"0.4*density*specific_energy\"\n    "
+        "temperature         likewise; default: none\n    sound_speed         likewise; default: that of this "
+        "pressure\n");
   page.print("\n  with any material\n");
   show_options(page, options_of(flux_parameters()));
   page.print("\n  of class Solid, in elastic = {{ ... }} inside the material\n");
@@ -326,7 +326,7 @@ void show_diagnosis(Page& page, DiagnosisKind const& kind) {
 
 void show_loader(Page& page, LoadKind const& kind) {
   page.print("loader {}: {}\n", kind.name, kind.doc);
-  if (kind.counted) page.print("\n  its ensemble says how many: number = 1000\n");
+  if (kind.counted) page.print("\n  needs the number of particles in its ensemble: number = 1000\n");
   LoadOptions plain;
   if (!kind.options.empty()) page.print("\n");
   show_options(page, kind.options, &plain);
@@ -495,7 +495,7 @@ std::string catalogue_page(std::string const& given) {
     if (table.name == name) next(), show_table(page, table);
   for (auto const& table : tables_of_kinds)
     if (table.name == name) {
-      next(), page.print("{}: {}\n\n  {} = one of these; bzm show NAME tells its keys\n", table.heading,
+      next(), page.print("{}: {}\n\n  {} = one of these; bzm show NAME explains its keys\n", table.heading,
                          plain_text(table.doc), table.key);
       for (auto const& kind : table.kinds()) page.print("    {:<22} {}\n", kind.name, kind.doc);
     }

@@ -6,7 +6,7 @@ namespace boltzmann::detail {
 
 std::vector<ParticleClass> smooth_classes() {
   return {{"Smooth",
-           "a piece of a continuum, spread over its range; what it is made of is its ensemble's material",
+           "a piece of a continuum, spread over its range; its matter is the material of its ensemble",
            true,
            {variant_of<Smooth<1>>(), variant_of<Smooth<2>>(), variant_of<Smooth<3>>()},
            Matter::fluid},

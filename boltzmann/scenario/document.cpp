@@ -183,7 +183,7 @@ std::string syntax_message(std::string description) {
     auto const quote = what.find('\'');
     return (description.find("table header") != std::string::npos ? "duplicate table " : "duplicate key ") +
            (quote == std::string::npos ? what : what.substr(quote, what.find('\'', quote + 1) - quote + 1)) +
-           ": it stands further up already";
+           ": it is already defined above";
   }
   if (description.find("could not determine value type") != std::string::npos)
     return "this is no value; a text needs quotes, e.g. \"2.5 angstrom\", an array [ ]";
@@ -219,6 +219,35 @@ std::optional<std::size_t> not_utf8(std::string const& text) {
   return std::nullopt;
 }
 
+namespace {
+
+/// Other names of tables, which scenarios may use. Everything else uses the name.
+struct TableSynonym {
+  std::string_view synonym, name;
+};
+constexpr TableSynonym table_synonyms[] = {{"interactions", "influences"}, {"measurements", "diagnoses"}};
+
+std::string name_of_table(std::string const& word) {
+  for (auto const& [synonym, name] : table_synonyms)
+    if (word == synonym) return std::string(name);
+  return word;
+}
+
+/// Gives tables with other names their usual names.
+Item with_usual_names(Item document, Mistakes& mistakes) {
+  for (auto& entry : document.entries) {
+    std::string const name = name_of_table(entry.key);
+    if (name == entry.key) continue;
+    if (document.find(name))
+      mistakes.add(entry.place, fmt::format("[[{}]] is another name of [[{}]]; use one of the two", entry.key, name));
+    else
+      entry.key = name;
+  }
+  return document;
+}
+
+}  // namespace
+
 Item parse_document(std::string const& text, Mistakes& mistakes) {
   if (std::all_of(text.begin(), text.end(), [](unsigned char c) { return std::isspace(c); })) {
     mistakes.add({}, "the file is empty; a scenario needs at least [box], [run] and [[ensembles]]");
@@ -238,7 +267,7 @@ Item parse_document(std::string const& text, Mistakes& mistakes) {
     return {};
   }
   try {
-    return item_of(toml::parse(text));
+    return with_usual_names(item_of(toml::parse(text)), mistakes);
   } catch (toml::parse_error const& error) {
     Place const place = place_of(error.source());
     if (auto const foreign = foreign_input(text); !foreign.empty())
@@ -297,6 +326,7 @@ std::vector<std::string> steps_of(std::string const& path) {
     else
       steps.back() += c;
   }
+  steps.front() = name_of_table(steps.front());
   return steps;
 }
 

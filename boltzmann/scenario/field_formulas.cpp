@@ -117,8 +117,8 @@ class FormulasOfField {
     for (auto const input : formula.inputs())
       for (auto const& other : table_.entries)
         if (other.key == names_.field(input) && comes_after(other)) {
-          reading_.mistake(item().place, fmt::format("{}: '{}' is not known yet: only fields whose formulas stand "
-                                                     "further left are, and those with values",
+          reading_.mistake(item().place, fmt::format("{}: '{}' is not known yet: a formula may use only fields with "
+                                                     "values, and those whose formulas are further left",
                                                      field_.name, names_.name(input)));
           return;
         }
@@ -161,7 +161,7 @@ std::vector<FieldFormula> read_formulas(Section& section, std::vector<Field> con
     auto const field = std::find_if(fields.begin(), fields.end(), [&](Field const& f) { return f.name == entry.key; });
     if (field == fields.end() || (field->name == "position" && !with_position) || reading.dimension == 0) continue;
     if (section.has(field->name))
-      reading.mistake(entry.place, fmt::format("formulas: '{}' stands beside them, too; leave one out", field->name));
+      reading.mistake(entry.place, fmt::format("formulas: '{}' also has a value; leave one out", field->name));
     if (auto all = FormulasOfField(*table, entry, *field, names, reading).read(unknown, with_position))
       formulas.push_back(std::move(*all));
   }

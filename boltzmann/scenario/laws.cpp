@@ -153,7 +153,7 @@ void install_external(SmoothScheme& scheme, LawInfo const& law, ParameterValues 
     for (auto const& other : scenario_laws())
       if (other.bind_on_smooth) names.emplace_back(other.name);
     throw Error(
-        fmt::format("law '{}' does not act on smooth particles; from outside there are {}", law.name, join(names)));
+        fmt::format("law '{}' does not act on smooth particles; external laws that do are {}", law.name, join(names)));
   }
   BoundLaw const bound = law.bind_on_smooth(parameters, ensemble.dimension());
   for (auto const& choice : bound.externals)

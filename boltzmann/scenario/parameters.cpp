@@ -221,7 +221,7 @@ std::string with_values(std::string const& text, ScenarioValues const& values) {
   std::size_t at = 0;
   for (auto const& change : changes) {
     if (change.begin < at && !change.text.empty())
-      throw Error("two of the values stand in each other; set one of them");
+      throw Error("two of the values are at the same place, one inside the other; set one of them");
     if (change.begin > at) result += text.substr(at, change.begin - at);
     result += change.text;
     at = std::max(at, change.end);
@@ -230,7 +230,7 @@ std::string with_values(std::string const& text, ScenarioValues const& values) {
   // Check that the new text, whatever its layout, has the intended value.
   Item const now = parse_document(result, mistakes);
   if (!mistakes.none() || write_document(now) != write_document(wanted))
-    throw Error("these values can't be put into the text of the scenario as it stands");
+    throw Error("these values can't be put into the text of the scenario as it is");
   return result;
 }
 

@@ -53,8 +53,8 @@ bool complete(OutflowOptions& options, Item const& table, Reading& reading) {
   for (auto const* body : bodies->bodies())
     for (std::size_t i = 0; i < body->size(); ++i)
       if (plane.beyond(body->row(i), 2)) {
-        reading.mistake(table.place, fmt::format("outflow: the body '{}' is beyond it, where nobody stays; it belongs "
-                                                 "downstream of all bodies",
+        reading.mistake(table.place, fmt::format("outflow: the body '{}' is beyond the plane, where particles are "
+                                                 "removed; move the plane downstream of all bodies",
                                                  body->name()));
         return false;
       }

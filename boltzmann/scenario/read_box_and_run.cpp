@@ -44,9 +44,9 @@ void read_wall(Item const& table, Reading& reading) {
   int const a = options.axis[0] - 'x';
   Boundary const boundary = reading.box->boundary(a);
   if (boundary != Boundary::mirror && boundary != Boundary::reflecting)
-    return section.mistake("axis", fmt::format("{} is {}; walls stand at the ends of axes whose boundary is "
-                                               "\"mirror\" or \"reflecting\"",
-                                               options.axis, to_string(boundary)));
+    return section.mistake(
+        "axis", fmt::format("{} is {}; walls need an axis whose boundary is \"mirror\" or \"reflecting\"", options.axis,
+                            to_string(boundary)));
   if (boundary == Boundary::reflecting) {
     auto const refuse = [&](char const* key, char const* what) {
       section.mistake(key, fmt::format("{} is reflecting, where walls {}; what drags or heats is the wall of an axis "
@@ -238,7 +238,7 @@ void read_run(Section& document, Reading& reading) {
   read_options(section, run_options(), static_cast<RunOptions*>(&run), {.dimension = reading.dimension});
   bool const counted = section.has("steps");
   if (counted || section.has("time"))
-    section.refuse(counted ? "time" : "steps", "'steps' say how long the run is, too; leave one out");
+    section.refuse(counted ? "time" : "steps", "'steps' also sets the length of the run; leave one out");
   else
     section.need("steps", "steps = 1000");
   run.cutoff_known = run.cutoff_known || run.cutoff;

@@ -54,10 +54,9 @@ void refuse_uses(std::vector<ReadNeighbourField> const& fields, std::string_view
                  Place const& place, Reading& reading) {
   for (auto const& one : fields)
     if (uses(formula, one.field.field))
-      reading.mistake(place,
-                      fmt::format("{}: '{}' is found when somebody looks, so that nothing that acts may use it; a "
-                                  "field with sum = true can count neighbours at each step",
-                                  key, one.field.field));
+      reading.mistake(place, fmt::format("{}: '{}' is computed only for output, so laws and rates can't use it; a "
+                                         "field with sum = true can count neighbours at each step",
+                                         key, one.field.field));
 }
 
 /// Creates a class from one table.
@@ -240,7 +239,7 @@ class ClassReader {
       why = "it means something else in formulas; take another name";
     else if (std::any_of(derived_.added.begin(), derived_.added.end(),
                          [&](AddedField const& other) { return other.field.name == name; }))
-      why = "there are two of that name";
+      why = "two have that name";
     if (!why.empty()) mistake(place, fmt::format("fields: '{}': {}", quoted(name), why));
     return why.empty();
   }
@@ -306,7 +305,7 @@ class ClassReader {
       if (sum)
         mistake(place, fmt::format("{}: it is a sum, which has no rate", whole));
       else if (found)
-        mistake(place, fmt::format("{}: neighbours say what it is; it has no rate", whole));
+        mistake(place, fmt::format("{}: it is computed from neighbours and has no rate", whole));
       else if (rate.field == "position" || rate.field == "velocity")
         mistake(place, fmt::format("{}: laws move particles; write an [[influences]] with an influence, from_outside = "
                                    "true",

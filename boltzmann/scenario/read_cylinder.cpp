@@ -25,10 +25,9 @@ void add_to_cylinder(Item const& table, Reading& reading) {
   auto* const scheme = reading.result->scheme<CylinderFlow>();
   if (!scheme) return;
   if (reading.bodies)
-    return reading.mistake(
-        table.place,
-        "[cylinder_flow]: there are bodies, whose sheets would need images in it; let the cylinder be "
-        "one of the [[bodies]]");
+    return reading.mistake(table.place,
+                           "[cylinder_flow]: there are bodies, whose vortex sheets would need images in the cylinder; "
+                           "make the cylinder one of the [[bodies]]");
   bool anybody = false;
   for (auto& ensemble : reading.ensembles) {
     if (!ensemble.particles || !ensemble.kind) return;

@@ -83,10 +83,10 @@ bool taken(std::vector<DissipatingPair>& list, ReadEnsemble const* a, ReadEnsemb
 std::pair<ReadEnsemble*, ReadEnsemble*> read_pair(Section& section, Reading& reading) {
   section.explain_said(dissipation_pair_options());
   Item const *on = section.find("on"), *between = section.find("between");
-  if (on || between) section.refuse(on ? "between" : "on", "'on' says on whom, too; leave one out");
+  if (on || between) section.refuse(on ? "between" : "on", "'on' also chooses the ensembles; leave one out");
   if (!on && !between)
     reading.mistake(section.place(),
-                    "[[dissipation]] does not say on whom: add on = \"atoms\" or between = [\"a\", \"b\"]");
+                    "[[dissipation]] does not name its ensembles: add on = \"atoms\" or between = [\"a\", \"b\"]");
   if ((on == nullptr) == (between == nullptr)) return {};
   if (on) {
     ReadEnsemble* one = reading.ensemble(*on, "on");
@@ -100,10 +100,10 @@ void check_method(Section& section, DissipationOptions const& options, Dissipati
   Reading& reading = all.reading;
   if (all.first_dpd) {
     for (char const* key : {"method", "corrector", "metropolis"})
-      section.refuse(key,
-                     fmt::format("dissipations of kind \"dpd\" act together, in one way for all, which the first of "
-                                 "them says (line {})",
-                                 all.first_dpd->line));
+      section.refuse(
+          key,
+          fmt::format("all dissipations of kind \"dpd\" act together and share this key; set it in the first (line {})",
+                      all.first_dpd->line));
     return;
   }
   bool const splitting = options.method == DissipationMethod::shardlow;
@@ -202,7 +202,7 @@ FrictionTexts read_friction_texts(Section& section, OptionTable& keys, Reading& 
   texts.weight = section.find("weight");
   if (texts.weight) {
     if (auto const text = read_text(*texts.weight, "weight", reading.context)) texts.formulas.weight = *text;
-    section.refuse("exponent", "'weight' says what chi is; leave one out");
+    section.refuse("exponent", "'weight' also defines chi; leave one out");
   }
   reading.refuse_neighbour_fields(texts.formulas.friction, "friction", section.place("friction"));
   if (texts.any())
@@ -309,9 +309,9 @@ void read_pairs(Section& section, Item const& table, Dissipations& all) {
                                 "\"{}\"",
                                 to_string(dissipation.convention)));
   if (reading.result->scheme<MeshScheme>())
-    return reading.mistake(table.place,
-                           "dissipation acts between near particles, which a scenario with a [mesh] does not "
-                           "look for");
+    return reading.mistake(
+        table.place,
+        "dissipation acts between near particles, for which a scenario with a [mesh] has no neighbour lists");
   if (reading.context.mistakes.count() != before || !a || !b) return;
   if (can_act(dissipation, *a, *b, section, all))
     catch_errors(reading, table.place, [&] { add_pairs(dissipation, *a, *b, all); });

@@ -56,7 +56,7 @@ class EnsembleReader {
     addition_ = true;
     read_options(section_, ensemble_options().only({{"number"}}), &options_, {.dimension = reading_.dimension});
     if (Item const* item = section_.item("number"); item && item->is(Item::Kind::integer) && item->integer == 0)
-      mistake(item->place, "number: 0 adds nobody; 1 or more are needed");
+      mistake(item->place, "number: 0 adds no particle; 1 or more are needed");
     options_.name = name;
     options_.element = of.element;
     ensemble_.name = of.name;
@@ -428,8 +428,9 @@ Item alike(Item const& table, ReadEnsemble const& of, Reading& reading) {
                      entry.key))
       continue;
     if (is_list(entry.item, entry.key, *of.kind, reading.dimension)) {
-      reading.mistake(table.place, fmt::format("add: '{}' of '{}' is a list; say here what those that are added have",
-                                               entry.key, of.name));
+      reading.mistake(
+          table.place,
+          fmt::format("add: '{}' of '{}' is a list; give the values of the added particles here", entry.key, of.name));
       continue;
     }
     all.entries.push_back(entry);

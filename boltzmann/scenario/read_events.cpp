@@ -177,7 +177,7 @@ std::optional<Addition> read_added(Item const& add, Section& section, std::size_
   if (nobody && std::any_of(reading.result->schemes.begin(), reading.result->schemes.end(),
                             [](auto const& one) { return dynamic_cast<P3MScheme const*>(one.get()) != nullptr; }))
     return refuse(on->place,
-                  "nobody is there before, by whom the accuracy of [mesh] could choose it; say cells and "
+                  "no particles exist at the start for which the accuracy of [mesh] could choose it; set cells and "
                   "assignment instead");
   Addition all{to->particles, {}, to->kind->in(reading.dimension)};
   for (std::int64_t k = 0; k < times; ++k) {

@@ -88,7 +88,7 @@ class InfluenceReader {
     for (char const* key : {"energy", "influence", "parameters", "from_outside", "changes", "angles", "dihedrals"}) {
       if (section_.has(key))
         reading_.mistake(section_.place(key),
-                         fmt::format("{}: it belongs to a typed law, one with an energy or an influence", key));
+                         fmt::format("{}: it belongs to a formula law, one with an energy or an influence", key));
       section_.allow(key);
     }
     read_law();
@@ -175,7 +175,8 @@ class InfluenceReader {
     if (between_ && a_ != b_) check_changes(b_);
     bool const moves = typed_.changes.empty();
     if (moves && ((a_ && a_->smooth()) || (b_ && b_->smooth())))
-      reading_.mistake(law_place_, "typed laws don't act on smooth particles yet, which are moved by their 'material'");
+      reading_.mistake(law_place_,
+                       "formula laws don't act on smooth particles yet, which are moved by their 'material'");
     bool const there = a_ && b_ && a_->particles && b_->particles && pairs_;
     if (reading_.context.mistakes.count() != before_ || !there) return;
     double const reach = from_outside || connect_ || tuples() ? no_cutoff : reach_of_pairs();
@@ -253,8 +254,7 @@ class InfluenceReader {
   /// at_cutoff, switch_from.
   void check_end() {
     if (external() || section_.has("connect"))
-      section_.refuse("at_cutoff",
-                      external() ? "what comes from outside has no cut-off" : "connections have no cut-off");
+      section_.refuse("at_cutoff", external() ? "an external law has no cut-off" : "connections have no cut-off");
     Item const* const item = section_.item("at_cutoff");
     bool const wrong = item && options_.at_cutoff == FormulaLaw::AtCutoff::cut && item->text != "cut";
     if (options_.at_cutoff != FormulaLaw::AtCutoff::switched && !wrong)
@@ -265,8 +265,8 @@ class InfluenceReader {
     if (!options_.tail) return;
     Place const place = section_.place("tail");
     if (external() || section_.has("connect"))
-      reading_.mistake(
-          place, fmt::format("tail: {} no cut-off", external() ? "what comes from outside has" : "connections have"));
+      reading_.mistake(place,
+                       fmt::format("tail: {} no cut-off", external() ? "an external law has" : "connections have"));
     else if (by_)
       reading_.mistake(place, "tail: it is of pairs that act on each other; write 'on' alone, or 'between'");
     else if (options_.at_cutoff != FormulaLaw::AtCutoff::cut)
@@ -320,7 +320,7 @@ class InfluenceReader {
       pairs_->internal(a, law, reach);
   }
 
-  std::string called() const { return typed_item_ ? "the typed law" : fmt::format("law '{}'", law_->name); }
+  std::string called() const { return typed_item_ ? "the formula law" : fmt::format("law '{}'", law_->name); }
 
   // ---- A shipped law ----
 
@@ -328,14 +328,13 @@ class InfluenceReader {
     std::vector<std::string> names;
     for (auto const& law : scenario_laws()) names.emplace_back(law.name);
     Item const* item = section_.need(
-        "law", "law = \"lennard-jones\", or energy = \"exp(-r)/r\" or influence = \"...\" of a law that is typed");
+        "law", "law = \"lennard-jones\", or energy = \"exp(-r)/r\" or influence = \"...\" of a formula law");
     if (!item) return refuse_other_words();
     if (item->is(Item::Kind::text) && !find_law(item->text) && hint_for(item->text, names).empty())
-      return reading_.mistake(
-          item->place,
-          fmt::format("unknown law '{}'; others are typed: energy = \"exp(-r)/r\", or influence = \"...\" (bzm new "
-                      "--law){}",
-                      quoted(item->text), choices_with("", names, "there are", "bzm list laws")));
+      return reading_.mistake(item->place,
+                              fmt::format("unknown law '{}'; for others write a formula: energy = \"exp(-r)/r\", or "
+                                          "influence = \"...\" (bzm new --law){}",
+                                          quoted(item->text), choices_with("", names, "there are", "bzm list laws")));
     auto const name = read_word(*item, "law", names, reading_.context);
     if (!name) return;
     law_ = find_law(*name);
@@ -371,16 +370,15 @@ class InfluenceReader {
       b_ = reading_.ensemble(*by_, "by");
       if (a_ && a_ == b_) refuse_twice(*by_, "by", reading_), a_ = nullptr;
     } else if (by_) {
-      reading_.mistake(by_->place, "by: it says who acts; on whom says 'on', which is missing");
+      reading_.mistake(by_->place, "by: it names the ensemble that acts; 'on', the ensemble that feels it, is missing");
     } else if (section_.has("one_way")) {
       return;  // as before, which section_.finish() reports
     } else if (!external()) {
       reading_.mistake(section_.place(),
-                       "[[influences]] does not say on whom: add on = \"atoms\", between = [\"a\", "
-                       "\"b\"], on = \"a\" with by = \"b\", or among = [\"a\", \"b\"]");
+                       "[[influences]] does not name its ensembles: add on = \"atoms\", between = [\"a\", \"b\"], on = "
+                       "\"a\" with by = \"b\", or among = [\"a\", \"b\"]");
     } else if (!section_.has("between") && !section_.has("by")) {
-      reading_.mistake(section_.place(),
-                       fmt::format("{} comes from outside and needs 'on', e.g. on = \"atoms\"", called()));
+      reading_.mistake(section_.place(), fmt::format("{} is external and needs 'on', e.g. on = \"atoms\"", called()));
     }
   }
 

@@ -146,10 +146,10 @@ void Loader::read_spacing(std::optional<std::size_t> number, Place const& number
     block_.spacing = *options_.spacing;
     spacing_known_ = true;
     for (char const* other : {"lattice_constant", "number_density"})
-      section_.refuse(other, "'spacing' says it, too; leave one out");
+      section_.refuse(other, "'spacing' sets it, too; leave one out");
   } else if (options_.lattice_constant || options_.number_density) {
     bool const by_constant = options_.lattice_constant.has_value();
-    if (by_constant) section_.refuse("number_density", "'lattice_constant' says it, too; leave one out");
+    if (by_constant) section_.refuse("number_density", "'lattice_constant' sets it, too; leave one out");
     if (reading_.dimension == 0) return;
     spacing_known_ = catch_errors(reading_, section_.place(by_constant ? "lattice_constant" : "number_density"), [&] {
       block_.spacing = by_constant ? spacing_for_constant(block_.kind, reading_.dimension, *options_.lattice_constant)
@@ -406,8 +406,8 @@ double Loader::read_random() {
   if (!options_.packing_fraction || !reading_.box || reading_.dimension == 0) return 0;
   if (section_.has("where") || !reading_.box->regions().empty()) {
     reading_.mistake(section_.place("packing_fraction"),
-                     "packing_fraction: it is of the whole block, of which 'where' and regions leave an unknown part; "
-                     "give minimum_distance and number");
+                     "packing_fraction: it refers to the whole block, of which 'where' and regions leave an unknown "
+                     "part; give minimum_distance and number");
     return 0;
   }
   double count = 0;
@@ -531,8 +531,7 @@ double Loader::read_file() {
   double count = 0;
   catch_errors(reading_, section_.place(section_.has("species") ? "species" : "path"), [&] {
     count = static_cast<double>(count_species(frame_, options_.species));
-    if (count == 0)
-      throw Error(fmt::format("path: frame {} of '{}' has no particles", options_.frame, file_name()));
+    if (count == 0) throw Error(fmt::format("path: frame {} of '{}' has no particles", options_.frame, file_name()));
   });
   return count;
 }

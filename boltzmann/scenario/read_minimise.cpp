@@ -17,10 +17,9 @@ void read_minimise(Section& document, Reading& reading) {
   if (reading.context.mistakes.count() != before || !all_loaded(reading)) return;
   if (std::all_of(reading.ensembles.begin(), reading.ensembles.end(),
                   [](ReadEnsemble const& one) { return one.smooth(); }))
-    return reading.mistake(
-        table->place,
-        "[minimise]: there are only smooth particles, whose pressure does work on their heat: no state "
-        "has the least energy; let viscosity bring them to rest");
+    return reading.mistake(table->place,
+                           "[minimise]: there are only smooth particles, whose pressure does work on their heat: no "
+                           "state has the least energy; let viscosity bring them to rest");
   reading.minimisation = options;
 }
 

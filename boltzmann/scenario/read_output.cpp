@@ -260,10 +260,10 @@ void read_stop(Reading& reading) {
   if (!reading.diagnoses_known || !all_loaded(reading) || !reading.base_known) return;
   std::vector<Column> const columns = columns_of(*reading.result);
   if (columns.empty() || reading.result->output.diagnoses == 0)
-    return reading.mistake(
-        item.place, columns.empty() ? "stop: it looks at the columns of diagnoses, and there are no [[diagnoses]]"
-                                    : "stop: it looks at each row of diagnoses.csv, and diagnoses = 0 in "
-                                      "[output] asks for none");
+    return reading.mistake(item.place,
+                           columns.empty()
+                               ? "stop: it reads the columns of diagnoses, and there are no [[diagnoses]]"
+                               : "stop: it reads each row of diagnoses.csv, but diagnoses = 0 in [output] writes none");
   try {
     reading.result->stop_when = stop_condition(item.text, columns, reading.result->units);
     reading.result->stop = item.text;

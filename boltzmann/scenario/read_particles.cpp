@@ -61,7 +61,7 @@ std::optional<std::vector<std::uint32_t>> read_particles(Section& section, AnyEn
   auto const margin = section.quantity("margin", dimensions::length, not_negative);
   Item const* item = section.find("particles");
   Item const* where = parts ? nullptr : section.find("where");
-  if (item && !parts) section.refuse("where", "'particles' says which, too; leave one out");
+  if (item && !parts) section.refuse("where", "'particles' also chooses them; leave one out");
   if (item && item->is(Item::Kind::array) && item->elements.empty())
     reading.note(fmt::format("warning: particles: the list is empty (line {})", item->place.line));
   if (where) return item || !ensemble ? std::nullopt : particles_where(*where, "where", *ensemble, reading);

@@ -311,9 +311,11 @@ void refuse_varied(Item const& document, Mistakes& mistakes) {
     std::string const same = key.path == "run.time" ? "run.steps" : key.path == "run.steps" ? "run.time" : key.path;
     Item const* length = same == key.path ? nullptr : item_at(document, same);
     if (length && length->place.override_number >= 0)
-      mistakes.add(length->place, fmt::format("{}: the sweep of this scenario varies {}, which says the same; give "
-                                              "--vary {}=[...], or --no-sweep",
-                                              same, key.path, key.path));
+      mistakes.add(
+          length->place,
+          fmt::format(
+              "{}: the sweep of this scenario varies {}, which sets the same; give --vary {}=[...], or --no-sweep",
+              same, key.path, key.path));
     Item const* at = item_at(document, key.path);
     if (at && at->place.override_number > key.place.override_number)
       mistakes.add(at->place,
@@ -337,7 +339,7 @@ std::string sweep_text(Item document, std::string const& folder) {
 void choose_run(Item& document, std::size_t run, Mistakes& mistakes) {
   Entry const* entry = document.find("sweep");
   if (!entry || !entry->item.is(Item::Kind::table))
-    return mistakes.add(document.place, "there is no [sweep] of which a run could be chosen");
+    return mistakes.add(document.place, "there is no [sweep] from which a run could be chosen");
   auto const plan = read_sweep_values(entry->item, mistakes);
   std::erase_if(document.entries, [](Entry const& e) { return e.key == "sweep"; });
   if (!mistakes.none()) return;

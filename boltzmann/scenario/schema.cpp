@@ -302,9 +302,9 @@ std::string scenario_schema() {
     return table(properties, true);
   };
   std::string const title =
-      object({{"type", quoted_text("string")}, {"description", described("one line; stands above pictures")}});
+      object({{"type", quoted_text("string")}, {"description", described("one line; printed above pictures")}});
   std::string const description =
-      object({{"type", quoted_text("string")}, {"description", described("what one sees, and where it comes from")}});
+      object({{"type", quoted_text("string")}, {"description", described("purpose, and source of the numbers")}});
   Members properties{
       {"title", title},
       {"description", description},
@@ -318,6 +318,7 @@ std::string scenario_schema() {
       {"bodies", tables(closed("bodies"))},
       {"dye", tables(closed("dye"))},
       {"influences", influences()},
+      {"interactions", object({{"$ref", quoted_text("#/properties/influences")}})},
       {"rigid_bonds", tables(closed("rigid_bonds"))},
       {"dissipation", tables(kinds("kind", dissipations, properties_of(dissipation_pair_options())))},
       {"equilibrate", closed("equilibrate")},
@@ -326,6 +327,7 @@ std::string scenario_schema() {
       {"minimise", closed("minimise")},
       {"relaxation", closed("relaxation")},
       {"diagnoses", tables(kinds("kind", diagnoses, {}))},
+      {"measurements", object({{"$ref", quoted_text("#/properties/diagnoses")}})},
       {"remesh", one_or_tables(closed("remesh"))},
       {"split_cores", one_or_tables(closed("split_cores"))},
       {"outflow", one_or_tables(closed("outflow"))},

@@ -38,8 +38,8 @@ std::vector<SchemeEntry> const& scheme_entries() {
        read_cylinder,
        add_to_cylinder},
       {{"smooth", "[smooth]", "the particles are pieces of a continuum", &smooth_options(), &smooth},
-       {{"smooth.rezone", "[[smooth.rezone]]", "particles that are split and merged while the run goes on",
-         &rezone_options(), &rezone}},
+       {{"smooth.rezone", "[[smooth.rezone]]", "splits and merges smooth particles during the run", &rezone_options(),
+         &rezone}},
        read_smooth,
        add_to_smooth},
       {{"embedded_atoms", "[embedded_atoms]", "metals: atoms in the density that their neighbours make",
@@ -89,7 +89,7 @@ void load_pairs(Reading& reading) {
     reading.mistake(reading.run.cutoff_place,
                     "cutoff: smooth particles act as far as their 'range', a field of the ensembles; leave it out");
   if (!needed && reading.run.skin)
-    reading.mistake(reading.run.skin_place, "skin: that of smooth particles stands in [smooth]");
+    reading.mistake(reading.run.skin_place, "skin: for smooth particles set it in [smooth]");
   if (!result.pairs) return;
   if (reading.run.skin) result.pairs->skin(*reading.run.skin);
   if (!reading.run.shifted) result.pairs->shifted(false);

@@ -28,18 +28,18 @@ OptionTable make_barostat_options() {
   using B = BarostatOptions;
   OptionTable all;
   all.add("pressure", &B::pressure, number_by_space(dimensions::energy, -1, any_number),
-          "that is held; or a formula of the `time` in quotes");
+          "pressure; or a formula of the `time`, in quotes");
   all.add("temperature", &B::temperature, number(dimensions::temperature, positive),
-          "of the ensemble: that of the heat bath beside it; or a formula of the `time` in quotes");
+          "temperature, that of the heat bath beside it; or a formula of the `time`, in quotes");
   all.add("compressibility", &B::compressibility, number_by_space(dimensions::none / dimensions::energy, 1, positive),
-          "about - dV / (V dP); a wrong one makes the box slower or faster, and nothing else");
+          "approximate compressibility - dV / (V dP); sets only the speed of the box");
   all.add("rate", &B::rate, number(dimensions::frequency, positive),
-          "a volume that is off comes back in 1 / rate, for this compressibility");
-  all.add_said("axes", "x, y or z, or a list of them", "whose lengths change, periodic ones", "all");
+          "relaxation rate of the volume, for this compressibility");
+  all.add_said("axes", "x, y or z, or a list of them", "periodic axes that change length", "all");
   all.add("together", &B::together, flag(),
-          "all of them by one factor, from their mean pressure; else each by its own, from the pressure along it");
-  all.add("method", &B::method, barostat_method_words(), "how the box moves: by noise, or as a piston does");
-  all.add("every", &B::every, whole(1, std::numeric_limits<double>::infinity()), "steps from one move to the next");
+          "scale all axes by one factor, from the mean pressure; else each from the pressure along it");
+  all.add("method", &B::method, barostat_method_words(), "motion of the box: random, or as a piston");
+  all.add("every", &B::every, whole(1, std::numeric_limits<double>::infinity()), "steps between moves");
   all.at("pressure").needed = "\"1 bar\"";
   all.at("temperature").needed = "\"300 K\"";
   all.at("compressibility").needed = "\"4.5e-10 1/Pa\"";

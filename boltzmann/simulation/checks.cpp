@@ -232,22 +232,21 @@ void Simulation::check_substeps() const {
 
 /// Impulses require a common step of all ensembles, and forces that depend only on positions.
 void Simulation::check_slow_schemes() {
-  if (slow_.size() == schemes_.size())
-    throw Error("every: all influences are calculated every so many steps; take a longer step instead");
+  if (slow_.size() == schemes_.size()) throw Error("every: all influences have every > 1; take a longer step instead");
   if (substeps_)
     throw Error("every: steps that are divided into substeps have no steps in common; leave out one of both");
   for (auto* ensemble : ensembles_) {
     Method const method = this->method(*ensemble);
     if (method != Method::leap_frog && method != Method::deactivate)
-      throw Error("every: influences of every so many steps are for leap-frog; ensemble '" + ensemble->name() +
-                  "' moves by " + to_string(method));
+      throw Error("every: influences with every > 1 are for leap-frog; ensemble '" + ensemble->name() + "' moves by " +
+                  to_string(method));
     for (auto const& [scheme, steps] : slow_)
       if (scheme->velocity_dependent(*ensemble))
-        throw Error("every: influences of every so many steps may depend on positions alone; those on ensemble '" +
+        throw Error("every: influences with every > 1 may depend on positions alone; those on ensemble '" +
                     ensemble->name() + "' depend on velocities");
     bool const predicts = part_of(*ensemble)->integrator->predicts_velocities() || !ensemble->driven().empty();
     if (predicts || any_comes_last(schemes_))
-      throw Error("every: influences of every so many steps may depend on positions alone; those on ensemble '" +
+      throw Error("every: influences with every > 1 may depend on positions alone; those on ensemble '" +
                   ensemble->name() + "' depend on more");
   }
 }
@@ -354,7 +353,7 @@ void Simulation::check_barostats() {
   for (auto const* ensemble : ensembles_)
     if (!ensemble->mobility.taken.empty() && !known(ensemble))
       throw Error(
-          "barostat: rigid bonds of which no scheme knows would be stretched; MoleculeScheme::keeps() tells one");
+          "barostat: rigid bonds that no scheme holds would be stretched; MoleculeScheme::keeps() registers one");
   for (auto const& barostat : barostats_) barostat->check(stretched_system());
 }
 

@@ -87,7 +87,7 @@ void need_finite(Simulation const& simulation, EnergyAndVirial const& measures) 
     not_finite("potential", measures.potential, particle_not_finite(simulation, measures),
                "; a law must be finite at every distance up to its cut-off, where its energy is taken as zero");
   if (!std::isfinite(measures.external))
-    not_finite("external", measures.external, "", "; a particle is where a law from outside has none");
+    not_finite("external", measures.external, "", "; a particle is where an external law has none");
   if (!std::isfinite(measures.internal)) not_finite("internal", measures.internal, "", "");
 }
 
@@ -225,7 +225,7 @@ std::vector<std::string> conserved_table(Conserved const& start, Conserved const
            std::max(start.angular_momentum_scale, end.angular_momentum_scale), end.angular_momentum_rounding,
            "of the sum of |m r x v|");
   if (start.momentum && !(start.isolated && end.isolated))
-    lines.emplace_back("  (walls, heat baths, influences from outside or without reaction change momenta)");
+    lines.emplace_back("  (walls, heat baths, influences that are external or without reaction change momenta)");
   return lines;
 }
 

@@ -13,16 +13,15 @@ OptionTable const& dye_options() {
   static OptionTable const all = [] {
     using namespace option;
     OptionTable all;
-    all.add_said("on", text("the name of an ensemble"), "of class Dye or Tracer, to which the released ones are added");
+    all.add_said("on", text("the name of an ensemble"), "ensemble of class Dye or Tracer that receives the particles");
     all.add_of<DyeOptions>(
         "from", [](DyeOptions& dye) -> OptionPlace { return std::span(dye.from); }, vector(dimensions::length),
-        "where it is released, or one end of a line of places");
-    all.add("to", &DyeOptions::to, vector(dimensions::length), "the other end of the line", "one place");
-    all.add("places", &DyeOptions::places, whole(1, 1e6), "on the line, both ends included");
-    all.add("every", &DyeOptions::every, whole(1, std::numeric_limits<double>::infinity()),
-            "steps from one release to the next");
+        "point of release, or one end of a line");
+    all.add("to", &DyeOptions::to, vector(dimensions::length), "the other end of the line", "one point");
+    all.add("places", &DyeOptions::places, whole(1, 1e6), "points on the line, both ends included");
+    all.add("every", &DyeOptions::every, whole(1, std::numeric_limits<double>::infinity()), "steps between releases");
     all.add("limit", &DyeOptions::limit, whole(1, 1e8),
-            "of particles in the ensemble, after which no more are released");
+            "largest number of particles in the ensemble; then the release stops");
     all.at("on").needed = "\"dye\"";
     all.at("from").needed = "[-2, 0]";
     return all;

@@ -109,15 +109,15 @@ OptionTable const& minimise_options() {
   using M = MinimiseOptions;
   static OptionTable const table = [] {
     OptionTable all;
-    all.add("force", &M::force, number(dimensions::force, positive), "it ends when no force is larger",
-            "when none moves its particle further than a millionth of its law's length in a step of the run");
+    all.add("force", &M::force, number(dimensions::force, positive), "stop when no force is larger",
+            "no force that moves its particle by a millionth of its law's length in a step of the run");
     all.add("energy", &M::energy, number(dimensions::energy, positive),
-            "it ends when ten steps change the energy by less, twice in succession", "only forces are looked at");
-    all.add("steps", &M::steps, whole(1, std::numeric_limits<double>::infinity()), "at most so many");
-    all.add("step", &M::step, number(dimensions::time, positive), "of the descent, which grows up to ten times",
-            "that of the run");
-    all.add("distance", &M::distance, number(dimensions::length, positive), "no particle is moved further in a step",
-            "a tenth of its law's length");
+            "stop when ten steps change the energy by less, twice in succession", "forces alone decide");
+    all.add("steps", &M::steps, whole(1, std::numeric_limits<double>::infinity()), "largest number of steps");
+    all.add("step", &M::step, number(dimensions::time, positive),
+            "first time step of the descent, which may grow tenfold", "that of the run");
+    all.add("distance", &M::distance, number(dimensions::length, positive),
+            "largest displacement of a particle in a step", "a tenth of its law's length");
     return all;
   }();
   return table;

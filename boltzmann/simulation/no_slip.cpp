@@ -32,8 +32,8 @@ void NoSlip::change() {
   auto const& sheet = bodies_->sheet();
   std::size_t const begin = vortices_->size();
   if (begin == 0)
-    throw PhysicsFailure(
-        fmt::format("no_slip: nobody is left in '{}' as an example of what walls shed", vortices_->name()));
+    throw PhysicsFailure(fmt::format(
+        "no_slip: no particle is left in '{}' as a template for the vortices that walls shed", vortices_->name()));
   std::size_t count = 0, first_panel = 0;
   for (std::size_t b = 0; b < bodies_->bodies().size(); ++b)
     if (std::find(which_.begin(), which_.end(), b) != which_.end()) count += bodies_->bodies()[b]->size();

@@ -12,15 +12,15 @@
 namespace boltzmann {
 
 void OutflowPlane::check(int dimension) const {
-  if (!from) throw Error("outflow: it has no place; add e.g. from = [10, 0]");
-  if (!direction) throw Error("outflow: it has no direction; add e.g. direction = [1, 0]");
+  if (!from) throw Error("outflow: the place is missing; add e.g. from = [10, 0]");
+  if (!direction) throw Error("outflow: the direction is missing; add e.g. direction = [1, 0]");
   double length = 0;
   for (std::size_t a = 0; a < static_cast<std::size_t>(dimension); ++a) {
     if (!std::isfinite((*from)[a]) || !std::isfinite((*direction)[a]))
       throw Error("outflow: a place or a direction is not finite");
     length = std::hypot(length, (*direction)[a]);
   }
-  if (!(length > 0)) throw Error("outflow: the direction is that of nothing, all its numbers are 0");
+  if (!(length > 0)) throw Error("outflow: the direction is zero; one of its numbers must differ from 0");
 }
 
 bool OutflowPlane::beyond(double const* place, int dimension) const {
@@ -145,16 +145,16 @@ OptionTable const& outflow_options() {
   static OptionTable const all = [] {
     using O = OutflowOptions;
     OptionTable table;
-    table.add("every", &O::every, whole(1, std::numeric_limits<double>::infinity()),
-              "so many steps from one look to the next");
-    table.add_said("on", ensembles(), "who leaves", "all tracers and vortices");
+    table.add("every", &O::every, whole(1, std::numeric_limits<double>::infinity()), "steps between removals");
+    table.add_said("on", ensembles(), "ensembles that leave", "all tracers and vortices");
     table.add("from", &O::how, &OutflowPlane::from, vector(dimensions::length),
-              "a point of the plane beyond which nobody stays");
+              "a point of the plane beyond which particles are removed");
     table.add("direction", &O::how, &OutflowPlane::direction, vector(dimensions::none),
-              "across that plane, downstream, of any length");
-    table.add_said("into", text("the name of an ensemble"),
-                   "of vortices, which takes up those who leave: a wake that is remeshed on a wider lattice",
-                   "they are gone");
+              "direction across the plane, downstream, of any length");
+    table.add_said(
+        "into", text("the name of an ensemble"),
+        "ensemble of vortices that receives the particles instead: a wake that is remeshed on a wider lattice",
+        "removed");
     table.at("from").needed = "[10, 0]";
     table.at("direction").needed = "[1, 0]";
     return table;

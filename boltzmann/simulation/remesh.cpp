@@ -461,22 +461,21 @@ OptionTable const& remesh_options() {
   static OptionTable const all = [] {
     using R = RemeshOptions;
     OptionTable table;
-    table.add("every", &R::every, whole(1, std::numeric_limits<double>::infinity()),
-              "so many steps from one remeshing to the next");
-    table.add_said("on", ensembles(), "who is remeshed, each by itself", "all that have vorticity");
+    table.add("every", &R::every, whole(1, std::numeric_limits<double>::infinity()), "steps between remeshings");
+    table.add_said("on", ensembles(), "ensembles to remesh, each by itself", "all with vorticity");
     table.add("spacing", &R::how, &Remeshing::spacing, number(dimensions::length, positive),
-              "of the nodes, which stand where those of the loader `fill` do; it must divide periodic axes");
+              "spacing of the nodes, at the places of the loader `fill`; must divide periodic axes");
     table.add("kernel", &R::how, &Remeshing::kernel, remesh_kernel_words(),
-              "`\"m4\"`: M4' of Monaghan, 4 nodes an axis, keeps the moments 0 to 2; `\"m6\"`: M6* of Bergdorf and "
-              "Koumoutsakos, 6 nodes, moments 0 to 4");
-    table.add("core", &R::how, &Remeshing::core, number(dimensions::length, not_negative), "of the new vortices",
-              "one and a half of the spacing");
+              "kernel: `\"m4\"`: M4' of Monaghan, 4 nodes an axis, keeps the moments 0 to 2; `\"m6\"`: M6* of Bergdorf "
+              "and Koumoutsakos, 6 nodes, moments 0 to 4");
+    table.add("core", &R::how, &Remeshing::core, number(dimensions::length, not_negative), "core of the new vortices",
+              "1.5 spacings");
     table.add("threshold", &R::how, &Remeshing::threshold, number(dimensions::none, {0, 1, false}),
-              "nodes with less than this part of the greatest vorticity are weak, and left out");
+              "weak nodes, below this part of the largest vorticity, are removed");
     table.add("max_loss", &R::how, &Remeshing::max_loss, number(dimensions::none, {0, 1, false}),
-              "weak nodes stay where they would make more than this part of the sum of all magnitudes, each time");
+              "largest part of the total magnitude that may be removed at a time");
     table.add("margin", &R::how, &Remeshing::margin, whole(0, 100),
-              "so many nodes around those that are not weak are there in any case: vorticity can spread to them");
+              "layers of nodes kept around strong ones, into which vorticity can spread");
     table.at("every").needed = "10";
     table.at("spacing").needed = "0.05";
     return table;

@@ -16,7 +16,7 @@ void check_method(AnyEnsemble const& ensemble, Integrator const& integrator) {
                             ensemble.name(), ensemble.class_name()));
   if (method == Method::deactivate || !integrator.same_for_all())
     throw Error(
-        fmt::format("shear: particles of ensemble '{}' stand still, while their images would flow", ensemble.name()));
+        fmt::format("shear: particles of ensemble '{}' are fixed, but their images would flow", ensemble.name()));
   if (integrator.has_groups())
     throw Error(fmt::format(
         "shear: the bonds of ensemble '{}' are kept rigid with no regard to the velocities of images that flow; use "

@@ -57,7 +57,7 @@ void Simulation::add(Scheme& scheme) {
 void Simulation::every(std::int64_t steps, Scheme& scheme) {
   if (steps < 1) throw Error(fmt::format("a scheme is calculated every 1 or more steps, not every {}", steps));
   if (std::find(schemes_.begin(), schemes_.end(), &scheme) == schemes_.end())
-    throw Error("a scheme that is to be calculated every so many steps is none of the simulation's; add it first");
+    throw Error("a scheme with every > 1 is not part of the simulation; add it first");
   std::erase_if(slow_, [&](auto const& one) { return one.first == &scheme; });
   if (steps > 1) slow_.emplace_back(&scheme, steps);
   checked_ = false;
@@ -126,7 +126,7 @@ Simulation::Part* Simulation::part_of(AnyEnsemble const& ensemble) {
 }
 
 Attendant Simulation::observe(std::uint64_t every, std::function<void(Simulation const&)> observer) {
-  if (every == 0) throw Error("an observer looks every 1 or more steps, not every 0");
+  if (every == 0) throw Error("the interval of an observer must be 1 step or more, not 0");
   return observe_when([every](std::int64_t step) { return step % static_cast<std::int64_t>(every) == 0; },
                       std::move(observer));
 }
@@ -317,7 +317,7 @@ void Simulation::happen_now() {
         happen();
         if (!events_[k].lasting) settle_velocities();
         if (sizes() != before)
-          throw Error("an event that adds particles is told by add_particles() (C++), and none takes them away");
+          throw Error("only add_particles() (C++) may add particles in an event, and no event may remove them");
       }
     }
     checked_ = false;  // laws and methods may have changed
@@ -698,9 +698,8 @@ void Simulation::restore(std::int64_t step, double step_size, std::uint64_t seed
   if (!gauss_radau_.parts().empty()) gauss_radau_.restore(next());
   if (at != state.size())
     throw Error(
-        "the checkpoint does not fit this simulation: what changed particles between its steps is not there; the "
-        "program "
-        "that has it can go on");
+        "the checkpoint does not fit this simulation: it has an adaptation that this simulation lacks; resume with the "
+        "program that has it");
   take_lengths();
   update_derived_fields();
   whole_ = {};

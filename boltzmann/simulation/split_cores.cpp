@@ -228,16 +228,15 @@ OptionTable const& core_splitting_options() {
   static OptionTable const all = [] {
     using S = CoreSplittingOptions;
     OptionTable table;
-    table.add("every", &S::every, whole(1, std::numeric_limits<double>::infinity()),
-              "so many steps from one splitting to the next");
-    table.add_said("on", ensembles(), "whose cores are split, each by itself", "all of class `Spreading`");
+    table.add("every", &S::every, whole(1, std::numeric_limits<double>::infinity()), "steps between splittings");
+    table.add_said("on", ensembles(), "ensembles to split, each by itself", "all of class `Spreading`");
     table.add("above", &S::how, &CoreSplitting::above, number(dimensions::length, positive),
-              "cores that are wider are split, into 4 around the old place in 2D, 6 in 3D");
+              "widest core; wider ones are split into 4 in 2D, 6 in 3D");
     table.add("ratio", &S::how, &CoreSplitting::ratio, number(dimensions::none, {0.5, 0.95, false}),
-              "of the new cores to the old one");
+              "core of the new vortices, relative to the old one");
     table.add("merge_within", &S::how, &CoreSplitting::merge_within, number(dimensions::none, {0, 1, false}),
-              "two of like direction that are nearer to each other than this part of the narrower core become one, "
-              "unless its core would be wider than `above`; 0: nothing merges");
+              "merge two vortices of like direction nearer than this part of the narrower core, if the result is not "
+              "wider than `above`; 0: no merges");
     table.at("every").needed = std::string("5");
     table.at("above").needed = "0.1";
     return table;

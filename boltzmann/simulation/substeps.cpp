@@ -12,7 +12,7 @@ namespace boltzmann {
 
 void check(SubstepOptions const& options) {
   if (!options.distance && !options.energy && !options.courant)
-    throw Error("substeps: nothing says how long they may be; give distance, energy or courant");
+    throw Error("substeps: no limit is set; give distance, energy or courant");
   for (auto const& [name, value] :
        {std::pair{"distance", options.distance}, {"energy", options.energy}, {"courant", options.courant}})
     if (value && !(*value > 0 && std::isfinite(*value)))

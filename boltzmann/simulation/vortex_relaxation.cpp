@@ -116,12 +116,11 @@ OptionTable const& relaxation_options() {
   using R = RelaxationOptions;
   static OptionTable const table = [] {
     OptionTable all;
-    all.add("every", &R::every, whole(1, std::numeric_limits<double>::infinity()),
-            "so many steps from one relaxation to the next");
+    all.add("every", &R::every, whole(1, std::numeric_limits<double>::infinity()), "steps between relaxations");
     all.add("fraction", &R::relaxing, &Relaxing::fraction, number(dimensions::none, {0, 1, true}),
-            "of what has a divergence, each time");
+            "part of the divergence removed each time");
     all.add("corrected", &R::relaxing, &Relaxing::corrected, flag(),
-            "each vorticity keeps its length; else it becomes shorter where it turns");
+            "keep the magnitude of vorticities; else they shorten as they turn");
     all.at("every").needed = std::string("5");
     return all;
   }();

@@ -125,7 +125,7 @@ struct Clients::State {
     json request = nested_too_deep(text) ? json() : json::parse(text, nullptr, false);
     if (!request.is_object() || !request.contains("do") || !request["do"].is_string()) {
       if (WebServer* const open = speaks)
-        open->send(id, reply_message(nullptr, {{"error", "what was said is no request: {\"do\": \"play\"}"}}));
+        open->send(id, reply_message(nullptr, {{"error", "this message is not a request such as {\"do\": \"play\"}"}}));
       return;
     }
     std::unique_lock lock(mutex);

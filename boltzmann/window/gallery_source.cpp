@@ -16,7 +16,7 @@ json changes(json const& request) {
   if (!request["set"].is_object()) throw Error("\"set\" is an object, {\"run.steps\": \"100\"}");
   for (auto const& value : request["set"])
     if (!value.is_string() && !value.is_null())  // null: remove the key
-      throw Error("what is set is written as in a scenario file, as a text");
+      throw Error("values are written as in a scenario file, as texts");
   return request["set"];
 }
 

@@ -332,7 +332,7 @@ struct LiveRun::State {
       pace.steps_per_frame(static_cast<std::int64_t>(steps));
     }
     if (!request.contains("step_size") && !request.contains("steps_per_frame"))
-      throw Error("what can be set is step_size and steps_per_frame");
+      throw Error("only step_size and steps_per_frame can be set");
     ++told.notice;
   }
 };
@@ -394,7 +394,7 @@ json LiveRun::hello() const {
       {"rewind", no_rewind(state.simulation)},
       {"step_size", ""},
       {"checkpoint", state.recording ? "" : "this run is not recorded, so it has no folder for a checkpoint"},
-      {"seek", "a run that goes on has no frames to go to; bzm window DIR replays a stored one"},
+      {"seek", "a run in progress has no frames to choose; bzm window DIR replays a stored one"},
       {"quit", ""}};
   return result;
 }

@@ -154,7 +154,7 @@ bool Replay::run(Clients& clients) {
 
 json Replay::hello() const {
   json result = views_.describe();
-  std::string const stored = "this is a stored run; bzm resume goes on with it";
+  std::string const stored = "this is a stored run; bzm resume continues it";
   result["type"] = "hello";
   result["kind"] = "replay";
   result["name"] = name_;
@@ -207,7 +207,7 @@ json Replay::perform(json const& request) {
   } else if (what == "set") {
     double const rate = number_or(request, "steps_per_frame", 0);
     if (!request.contains("steps_per_frame"))
-      throw Error("what can be set of a stored run is its frames per second, as steps_per_frame");
+      throw Error("of a stored run only the frames per second can be set, as steps_per_frame");
     if (!(rate > 0)) throw Error(fmt::format("a replay shows up to {} frames per second, not {}", fastest, rate));
     frames_per_second_ = std::min(rate, fastest);
   } else {

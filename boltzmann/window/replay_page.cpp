@@ -85,7 +85,7 @@ std::string page_with(std::string const& recording, std::string const& title) {
   std::string html(page_html());
   constexpr std::string_view name = "<meta name=\"boltzmann-script\" content=\"";
   auto const at = html.find(name);
-  if (at == html.npos) throw Error("page.html does not tell the digest of its script");
+  if (at == html.npos) throw Error("page.html has no digest of its script");
   std::string const digest = html.substr(at + name.size(), html.find('"', at + name.size()) - at - name.size());
   std::string const policy = "default-src 'none'; script-src '" + digest +
                              "'; style-src 'unsafe-inline'; img-src data: blob:; media-src blob:; base-uri 'none'; "

@@ -86,7 +86,7 @@ std::string RunList::find(std::string const& name) const {
     throw Error(fmt::format("there is no run '{}'{}", boltzmann::quoted(name), did_you_mean(name, all)));
   std::string const run = folder_ + "/" + name;
   if (std::error_code ignored; !fs::exists(run + "/trajectory.h5", ignored))
-    throw Error(fmt::format("'{}' has no trajectory.h5 to show: the run was not asked for one", run));
+    throw Error(fmt::format("'{}' has no trajectory.h5 to show: the run stored none", run));
   return run;
 }
 

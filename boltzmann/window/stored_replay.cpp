@@ -17,8 +17,8 @@ StoredReplay::StoredReplay(std::string const& folder) {
     throw Error("'" + folder + "' holds no run that could be shown: neither scenario.toml nor " + run_file);
   if (!fs::exists(folder + "/trajectory.h5"))
     throw Error("'" + folder +
-                "' has no trajectory.h5 to show: the run was not asked for one (trajectory = 10 in [output] stores a "
-                "frame every 10 steps)");
+                "' has no trajectory.h5 to show: the run stored none (trajectory = 10 in [output] stores a frame every "
+                "10 steps)");
   scenario_ = load_stored_run(folder);
   recording_ = make_recording(*scenario_, folder, {.overwrite = true});
   views_.emplace(*scenario_->simulation, scenario_->units, title_of(*scenario_, folder), folder);

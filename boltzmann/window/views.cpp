@@ -247,7 +247,7 @@ Canvas Views::canvas(Entry const& entry, json const& view, std::int64_t step, do
   }
   Picture picture = with(entry.picture, view);
   picture.palette = palette_;
-  if (picture.trace && folder_.empty()) throw Error("tracks are those of the trajectory, which nobody records here");
+  if (picture.trace && folder_.empty()) throw Error("tracks need the trajectory, which this run does not record");
   check(picture, ensembles(), column_names(), sources(picture));
   return boltzmann::draw(
       picture, {simulation_, units_, title_, step, time, folder_, instruments_, default_threads(), memory_.get()});

@@ -1,7 +1,8 @@
 """Boltzmann: particle simulations.
 
-``bz.load("copper").run()`` runs a shipped scenario; ``bz.Simulation(...)`` builds one table by table.
-docs/reference/python.md is the reference."""
+``bz.load("copper").run()`` runs a shipped scenario. ``bz.Simulation(...)`` defines one table by table. See
+docs/reference/python.md.
+"""
 
 try:
     import numpy as _numpy

@@ -1,4 +1,4 @@
-"""Names for the types that the package hands out and takes."""
+"""Types of arguments and results of the package."""
 
 from __future__ import annotations
 

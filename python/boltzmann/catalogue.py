@@ -1,4 +1,4 @@
-"""What there is: laws, classes, materials, diagnoses, ..., as ``bzm list`` and ``bzm show`` tell it."""
+"""Catalogues of laws, classes, materials, diagnoses, ..., as printed by ``bzm list`` and ``bzm show``."""
 
 from __future__ import annotations
 
@@ -9,14 +9,14 @@ from .errors import Error, unknown
 
 
 class Page(str):
-    """A page of text that shows itself."""
+    """A page of text that displays itself."""
 
     def __repr__(self) -> str:
         return str(self)
 
 
 class Catalogue:
-    """The names of one kind and a line for each; ``bz.laws["morse"]`` is the page of one."""
+    """The names of one kind with a line each; ``bz.laws["morse"]`` is the page of one."""
 
     def __init__(self, kind: str) -> None:
         self._kind = kind
@@ -48,7 +48,7 @@ class Catalogue:
 
 
 def show(name: str) -> Page:
-    """All that is known under a name: a scenario, a class, a law, a key, a unit, ..."""
+    """The page of a name: a scenario, a class, a law, a key, a unit, ..."""
     if not isinstance(name, str):
         raise Error(f"show: a name is a text, not {type(name).__name__}")
     return Page(_core.page(name))

@@ -1,4 +1,5 @@
-"""A scenario as Python says it: tables of keywords that become TOML, each line of which knows where it was said."""
+"""A scenario built from Python: tables of keywords become TOML, and each line remembers its place in the Python
+code."""
 
 from __future__ import annotations
 
@@ -67,7 +68,7 @@ def value(given: Any, name: str) -> str:
 
 
 def quantity(given: Any, name: str) -> str:
-    """Of a library of units, such as pint."""
+    """Text of a quantity of a library of units, such as pint."""
     try:
         unit = format(given.units, "~C")
     except (ValueError, TypeError):
@@ -84,12 +85,12 @@ def quantity(given: Any, name: str) -> str:
 
 
 def plain(name: str) -> str:
-    """``class_`` and ``from_`` say what Python keeps for itself."""
+    """``class_`` and ``from_`` stand for keys that are reserved words of Python."""
     return name[:-1] if name.endswith("_") and keyword.iskeyword(name[:-1]) else name
 
 
 class Said:
-    """A table, as it was said: its lines, and what is told of it."""
+    """A table: its lines, and the mistakes found in it."""
 
     __slots__ = ("heading", "lines", "place", "positions", "wrong")
 
@@ -111,14 +112,14 @@ class Document:
         self._top.append((f"{key(name)} = {value(given, name)}", place))
 
     def table(self, name: str, keys: Keys, place: str) -> None:
-        """[name], once."""
+        """The table [name], which exists once."""
         said = self._new(f"[{name}]", keys, place)
         if any(one.heading == said.heading for one in self._said):
             raise Error(f"{place}: there is a table [{name}] already")
         self._said.append(said)
 
     def append(self, name: str, keys: Keys, place: str, positions: Array | None = None, once: bool = False) -> Said | None:
-        """One more [[name]]; ``once``: if the same is there already, that is returned, and it is not said twice."""
+        """Add a table [[name]]. With ``once``, an equal earlier table is returned instead."""
         said = self._new(f"[[{name}]]", keys, place, positions)
         for one in self._said if once else ():
             if one.lines == said.lines:
@@ -127,18 +128,18 @@ class Document:
         return None
 
     def _new(self, heading: str, keys: Keys, place: str, positions: Array | None = None) -> Said:
-        """It takes the place of those of its kind that were wrong when the simulation was to be made."""
+        """A new table. It replaces wrong tables of its kind."""
         pairs = [(plain(name), given) for name, given in keys.items() if given is not None]
         said = Said(heading, [f"{key(name)} = {value(given, name)}" for name, given in pairs], place, positions)
         self._said = [one for one in self._said if not (one.wrong and one.heading == heading)]
         return said
 
     def positions(self) -> list[Array]:
-        """Arrays of places, of those who have some."""
+        """Arrays of positions, of the ensembles that have some."""
         return [one.positions for one in self._said if one.positions is not None]
 
     def made(self) -> None:
-        """Nothing of it is wrong."""
+        """Mark all tables as correct."""
         for one in self._said:
             one.wrong = False
 
@@ -148,7 +149,8 @@ class Document:
         return top + source + "".join(line + "\n" for one in self._said for line in one.lines)
 
     def _place(self, line: int) -> str | None:
-        """Where a line of text() was said, which is wrong; None: it stands in the file, and so many lines down there."""
+        """The Python place of a wrong line of text(); None: the line is in the file, at this distance from its
+        start."""
         if line <= len(self._top):
             return self._top[line - 1][1]
         line -= len(self._top) + len(self.source.splitlines())
@@ -162,7 +164,7 @@ class Document:
         return None
 
     def located(self, errors: ScenarioErrors, set_place: str = "") -> ScenarioErrors:
-        """The same mistakes, at their places in Python."""
+        """The same mistakes with their places in Python."""
         pattern = re.compile(rf"^{re.escape(self.file)}:(\d+):(\d+): (.*)$", re.S)
         lines = []
         self.made()

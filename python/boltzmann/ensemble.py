@@ -1,4 +1,4 @@
-"""The particles of one ensemble, as arrays of numpy that look into the rows themselves."""
+"""The particles of one ensemble, as NumPy arrays that view the particle data."""
 
 from __future__ import annotations
 
@@ -19,11 +19,11 @@ if TYPE_CHECKING:
 
 
 class Ensemble:
-    """``atoms.position``, ``atoms.velocity``, ... are views of the rows, of shape (N, D) or (N,). The next run uses what
-    you write into them. They stay valid memory; when the number of particles changes, they turn into NaN.
-    ``atoms.velocity = a`` copies into the rows. ``atoms.influence``, and fields that are derived from others (the density
-    of smooth particles), are read-only copies, calculated for the rows as they are when you read them. While another
-    thread runs the simulation, all arrays are copies."""
+    """``atoms.position``, ``atoms.velocity``, ... are views of the particle data, of shape (N, D) or (N,). The next
+    run uses what you write into them. They stay valid memory; if the number of particles changes, they turn into
+    NaN. ``atoms.velocity = a`` copies into the data. ``atoms.influence`` and derived fields (such as the density of
+    smooth particles) are read-only copies, calculated when you read them. While another thread runs the simulation,
+    all arrays are copies."""
 
     __slots__ = ("_sim", "_name", "_made", "_fields", "_layout", "_particles", "_places", "_derived")
     _sim: Simulation
@@ -42,7 +42,7 @@ class Ensemble:
         put(self, "_made", None)
 
     def _core(self) -> Core:
-        """The compiled simulation, and what its rows are like; read again if it has been made anew."""
+        """The compiled simulation and the layout of its rows; read again after the simulation was rebuilt."""
         core = self._sim._core
         if self._made is not core:
             put = object.__setattr__
@@ -56,30 +56,30 @@ class Ensemble:
 
     @property
     def name(self) -> str:
-        """What the scenario calls it."""
+        """Name of the ensemble in the scenario."""
         return self._name
 
     @property
     def class_name(self) -> str:
-        """Of its particles."""
+        """Number of particles."""
         self._core()
         return self._layout[3]
 
     @property
     def dimension(self) -> int:
-        """Of its space: 1, 2 or 3."""
+        """Dimension of space: 1, 2 or 3."""
         self._core()
         return self._layout[0]
 
     @property
     def fields(self) -> list[str]:
-        """The names of the fields of the class, the position first."""
+        """Names of the fields of the class, the position first."""
         self._core()
         return list(self._fields)
 
     @property
     def units(self) -> dict[str, str]:
-        """Of each field the unit of the base in which its numbers are."""
+        """Base unit of each field."""
         self._core()
         return {name: f[6] for name, f in self._fields.items()}
 
@@ -90,7 +90,7 @@ class Ensemble:
         return True
 
     def _place(self, field: Any) -> _Place:
-        """Of a field in the rows: the shape behind the number of particles, offset, and strides, in bytes."""
+        """Layout of a field in the rows: shape of one particle's value, offset, and strides, in bytes."""
         dimension, stride, *_ = self._layout
         _, offset, components, vector, *_ = field
         if components == 1 and not vector:
@@ -100,7 +100,7 @@ class Ensemble:
         return (components,), 8 * offset, (8 * stride, 8)
 
     def _view(self, name: str, readonly: bool) -> Array | None:
-        """None while another thread runs the simulation."""
+        """The data; None while another thread runs the simulation."""
         looked = self._particles.look(readonly)
         if looked is None:
             return None
@@ -128,8 +128,8 @@ class Ensemble:
         return self._copy(core, name, False) if view is None else view
 
     def _copy(self, core: Core, name: str, derived: bool) -> Array:
-        """A read-only copy, between two steps if another thread runs the simulation; of what is derived from rows, as
-        they are now."""
+        """A read-only copy, taken between two steps if another thread runs the simulation. Derived fields are
+        calculated now."""
 
         def look() -> Array:
             if derived:
@@ -186,7 +186,7 @@ class Ensemble:
         setattr(self, name, given)
 
     def _check(self, name: str, numbers: Any) -> None:
-        """Refuses what a scenario refuses."""
+        """Raise the errors that a scenario would raise."""
         flat = np.asarray(numbers, dtype=np.float64).ravel() if _is_regular(numbers) else np.empty(0)
         for wrong in flat[~np.isfinite(flat)][:1]:
             raise Error(f"{name}: {wrong} is not a finite number")
@@ -195,7 +195,7 @@ class Ensemble:
                 raise Error(f"{name}: {wrong:g} is out of range; it must be positive")
 
     def _numbers(self, core: Core, name: str, given: Any) -> Any:
-        """Plain numbers of the base: texts with units, and quantities of a library of units, are converted."""
+        """Plain numbers in base units, from texts with units and quantities of a library of units."""
         if isinstance(given, str):
             number = _core.number_of(core, self._name, name, given)
             if self._places[name][0] not in ((), (1,)) and number != 0:
@@ -226,7 +226,7 @@ class Ensemble:
 
     @property
     def rows(self) -> npt.NDArray[Any]:
-        """All fields together, as an array of records: ``rows["mass"]``, ``rows[60]``."""
+        """All fields together as a record array: ``rows["mass"]``, ``rows[60]``."""
         core = self._core()
         _, stride, _, _ = self._layout
         names: list[str] = []
@@ -251,8 +251,8 @@ class Ensemble:
         return np.ndarray(count, kind, _core.rows(core, self._name, readonly))
 
     def resize(self, count: int) -> None:
-        """Takes the last particles away, or adds some whose fields are zero (and mass one). Between runs, or in a
-        function of ``@sim.change``. Views that were made before turn into NaN."""
+        """Remove the last particles, or add some whose fields are zero (and mass one). Call it between runs or in a
+        function of ``@sim.change``. Earlier views turn into NaN."""
         if not isinstance(count, (int, np.integer)) or isinstance(count, bool) or count < 0:
             raise Error(f"resize: a number of particles is needed, 0 or more, not {count!r}")
         if count > 2**62:
@@ -263,7 +263,8 @@ class Ensemble:
         _core.resize(core, self._name, int(count), self._sim._changing)
 
     def add(self, position: Any, **fields: Any) -> None:
-        """One more particle, or several: positions of shape (D,) or (n, D), and other fields, one for all or one each."""
+        """Add one or several particles: positions of shape (D,) or (n, D); other fields are one value for all or
+        one for each."""
         core = self._core()
         dimension = self._layout[0]
         for name in fields:

@@ -1,4 +1,4 @@
-"""What goes wrong, by kinds. Nothing here ever ends the interpreter."""
+"""Exceptions, by kind. No error ends the interpreter."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ _here = os.path.dirname(os.path.abspath(__file__))
 
 
 class Error(ValueError):
-    """Input that can't be used. One line: what was found, where, what is allowed, the nearest right word."""
+    """Wrong input. The line has what was found, where, what is allowed, and the nearest right word."""
 
 
 class ScenarioErrors(Error):
-    """All mistakes of a scenario; ``lines`` has one line each, with the place of each in Python or in its file."""
+    """All mistakes of a scenario. ``lines`` has one line for each, with its place in Python or in its file."""
 
     def __init__(self, lines: str | Iterable[str]) -> None:
         self.lines = [lines] if isinstance(lines, str) else list(lines)
@@ -31,11 +31,11 @@ class PhysicsFailure(RuntimeError):
 
 
 class RecordingFailure(OSError):
-    """A file of a run could not be written. The line says which, and what is intact."""
+    """A file of a run could not be written. The line names the file, and the data that are intact."""
 
 
 def caller() -> str:
-    """``file:line`` of the call into this package; in a notebook the number of the cell's line."""
+    """``file:line`` of the call into this package; in a notebook the line number in the cell."""
     frame: FrameType | None = sys._getframe(1)
     while frame is not None and os.path.dirname(os.path.abspath(frame.f_code.co_filename)) == _here:
         frame = frame.f_back
@@ -48,7 +48,7 @@ def caller() -> str:
 
 
 def unknown(kind: str, name: str, names: Iterable[str]) -> str:
-    """One line for a name that is not there: the nearest one first, at most eight of those there are."""
+    """One line for an unknown name: the nearest valid name first, then at most eight others."""
     from . import _core
 
     return f"there is no {kind} '{name}'" + _core.choices(name, list(names))

@@ -1,7 +1,7 @@
 """Exact solutions, for comparison with simulations: gases, plasmas, orbits and vortices.
 
-Places and times may be numbers or arrays of any shape; what comes back has the shape that they have together.
-Units are yours, as long as they are consistent. Wrong input raises boltzmann.Error.
+Places and times may be numbers or arrays of any shape; results have their common broadcast shape. Use any
+consistent units. Wrong input raises boltzmann.Error.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""What a simulation hands out: its units, how a run went, what was measured and recorded, its box and mesh."""
+"""Results of a simulation: units, summary of a run, measurements and records, box and mesh."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 class Units:
-    """The simulation's base units, in which all arrays are."""
+    """Base units of the simulation, used by all arrays."""
 
     def __init__(self, simulation: Simulation) -> None:
         self._sim = simulation
@@ -32,16 +32,16 @@ class Units:
         return _core.quantity(self._sim._core, quantity)
 
     def to(self, unit: str, numbers: npt.ArrayLike) -> Any:
-        """Numbers of the base in another unit: ``sim.units.to("km/s", sim.atoms.velocity)``."""
+        """Convert numbers from base units: ``sim.units.to("km/s", sim.atoms.velocity)``."""
         return np.asarray(numbers) / _core.base_of_unit(self._sim._core, unit)
 
     def of(self, unit: str, numbers: npt.ArrayLike) -> Any:
-        """And back: numbers that are in this unit, as the base counts."""
+        """Convert numbers to base units."""
         return np.asarray(numbers) * _core.base_of_unit(self._sim._core, unit)
 
 
 class Report:
-    """How a run went; it shows what was conserved."""
+    """Summary of a run, with the errors of conserved quantities."""
 
     def __init__(self, simulation: Simulation, told: Keys) -> None:
         self.steps: int = told["steps"]
@@ -67,27 +67,27 @@ class Report:
 
 
 class Diagnosis:
-    """What is measured: columns over time, ``rdf.table``, and functions that are gathered, ``rdf.r, rdf.g``."""
+    """A diagnosis: columns over time in ``rdf.table``, and averaged functions such as ``rdf.r, rdf.g``."""
 
     def __init__(self, simulation: Simulation, kind: str, number: int | None, titles: Iterable[str] = ()) -> None:
         self._sim, self.kind, self._number, self._titles = simulation, kind, number, list(titles)
 
     @property
     def table(self) -> Table:
-        """Its columns over time."""
+        """Columns over time."""
         if self._number is None:
             return self._sim.table
         return from_rows(*self._sim._core.watched(self._number))
 
     @property
     def gathered(self) -> dict[str, Table]:
-        """Functions of a distance, a time lag, ... that it has gathered from all looks so far, by their names."""
+        """Functions of a distance, a time lag, ..., averaged over all samples so far, by name."""
         core = self._sim._core
         all_of = core.gathered() if self._number is None else core.watched_gathered(self._number)
         return {name: _gathered_table(columns) for name, columns in all_of.items()}
 
     def stop(self) -> None:
-        """It measures no more."""
+        """Stop measuring."""
         if self._number is not None:
             self._sim._core.unwatch(self._number)
 
@@ -112,7 +112,8 @@ def _gathered_table(columns: dict[str, bytes]) -> Table:
 
 
 class Record:
-    """Copies of one field at steps of a run: shape (looks, N, D). ``.step``, ``.time``; numpy takes it as an array."""
+    """Copies of one field at steps of a run: shape (samples, N, D). ``.step``, ``.time``; NumPy accepts it as an
+    array."""
 
     def __init__(self) -> None:
         self._copies: list[Array] = []
@@ -125,22 +126,22 @@ class Record:
 
     @property
     def step(self) -> Array:
-        """Of each look."""
+        """Step of each sample."""
         return np.array(self._steps)
 
     @property
     def time(self) -> Array:
-        """Of each look, in the base."""
+        """Time of each sample, in base units."""
         return np.array(self._times)
 
     @property
     def T(self) -> Array:
-        """The axes in reverse order: components first, looks last."""
+        """The axes in reverse order: components first, samples last."""
         return np.asarray(self).T
 
     @property
     def shape(self) -> tuple[int, ...]:
-        """Looks, particles, components."""
+        """Samples, particles, components."""
         return np.asarray(self).shape
 
     def __getitem__(self, which: Any) -> Any:
@@ -151,7 +152,7 @@ class Record:
 
 
 class Measured(dict[str, float]):
-    """Numbers by the names of their columns, of one moment; as a float it is the first of them."""
+    """Values of the columns at one moment, by name; as a float it is the first of them."""
 
     def __init__(self, table: Table) -> None:
         super().__init__((name, float(table[name][0])) for name in table.names[2:])
@@ -177,12 +178,12 @@ class BoxEdges:
 
     @property
     def length(self) -> Array:
-        """Along each axis."""
+        """Length along each axis."""
         return np.subtract(self.high, self.low)
 
     @property
     def volume(self) -> float:
-        """The product of the lengths: an area in 2D."""
+        """Product of the lengths: an area in 2D."""
         return float(np.prod(self.length))
 
     def __repr__(self) -> str:
@@ -194,8 +195,8 @@ class BoxEdges:
 
 
 class Mesh:
-    """Fields on the nodes of a mesh, as they were when it was asked for: ``density`` and ``potential`` of shape (nx, ny, nz)
-    as far as space has axes, ``field`` with the components behind them; ``x``, ``y``, ``z`` are the places of the nodes,
+    """Fields on the nodes of a mesh at the time of the call: ``density`` and ``potential`` of shape (nx, ny, nz)
+    for the axes of space, ``field`` with the components last; ``x``, ``y``, ``z`` are the positions of the nodes,
     ``units`` the base units of the fields."""
 
     def __init__(self, fields: list[Any]) -> None:

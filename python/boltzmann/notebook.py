@@ -21,15 +21,15 @@ _windows: weakref.WeakSet[Window] = weakref.WeakSet()
 
 @atexit.register
 def _close_windows() -> None:
-    """At the end of the program: a thread inside the compiled module can't outlive the interpreter."""
+    """End running threads at exit: a thread inside the compiled module can't outlive the interpreter."""
     for window in list(_windows):
         window._end()
 
 
 class Window:
-    """A page on a simulation: PLAY, STEP, REWD, STOP and QUIT are on it. In a notebook it shows itself in the cell;
-    elsewhere ``address`` is for a browser. While it is open, arrays of the simulation are copies, and what is assigned to
-    them comes between two steps."""
+    """A live page of a simulation with the buttons PLAY, STEP, REWD, STOP and QUIT. A notebook shows it in the
+    cell; otherwise open ``address`` in a browser. While it is open, arrays of the simulation are copies, and
+    assignments take effect between two steps."""
 
     def __init__(self, simulation: Simulation, steps: int, port: int, height: int, play: bool) -> None:
         self._sim, self._height = simulation, height
@@ -55,7 +55,7 @@ class Window:
         return self._thread.is_alive()
 
     def wait(self) -> None:
-        """Until somebody presses QUIT; raises what has ended the run."""
+        """Wait until QUIT is pressed; raises the exception that ended the run."""
         while self._thread.is_alive():
             self._thread.join(0.1)
         failure, self._failure = self._failure, None
@@ -63,7 +63,7 @@ class Window:
             raise failure
 
     def close(self) -> None:
-        """Ends the run after its step, and the page with it."""
+        """End the run after its step, and close the page."""
         self._end()
         self.wait()
 
@@ -88,7 +88,7 @@ class Window:
 
 
 class Replay:
-    """A stored run as one HTML text, which plays without a port in any frontend. ``save("run.html")`` writes it."""
+    """A stored run as one HTML text, which plays without a server. ``save("run.html")`` writes it."""
 
     def __init__(self, folder: str, views: list[str], frames: int, megabytes: float, height: int) -> None:
         self.html, self.frames, self.stored_frames, self.message = _core.replay_page(folder, views, frames, megabytes)

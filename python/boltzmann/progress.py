@@ -7,7 +7,7 @@ from typing import Any
 
 
 class ProgressLine:
-    """How far a run is: one line that is rewritten, on a terminal or in a notebook's cell."""
+    """Progress of a run: one line that is rewritten, on a terminal or in a notebook's cell."""
 
     def __init__(self, first: int, steps: int) -> None:
         self._first, self._steps, self._shown = first, steps, False

@@ -1,4 +1,4 @@
-"""A simulation: said by keywords, run, looked at."""
+"""A simulation: defined by keywords, run and observed."""
 
 from __future__ import annotations
 
@@ -39,8 +39,8 @@ _simulations: weakref.WeakSet[Simulation] = weakref.WeakSet()  # that have been 
 
 @atexit.register
 def _end_runs() -> None:
-    """At the end of the program: a thread inside the compiled module can't outlive the interpreter, so every run that
-    is under way ends after its step."""
+    """End running simulations at exit, after their step: a thread inside the compiled module can't outlive the
+    interpreter."""
     _core.end_sweeps()
     for sim in list(_simulations):
         built = sim._built
@@ -54,12 +54,13 @@ _numbers_in_text = 3000
 
 
 class Simulation:
-    """A simulation that is said table by table, as a scenario file says it: keywords are the guide's keys.
+    """A simulation, defined table by table as in a scenario file. Keywords are the keys of the reference.
 
-    ``Simulation(units="reduced", run=dict(step=0.005), box=dict(low=[0], high=[1]))`` gives top-level tables;
-    ``ensemble``, ``influence``, ``dissipation``, ``diagnosis``, ``wall``, ``event``, ``view`` and ``add`` one more of a
-    kind. Nothing is made before it is needed; then all mistakes are told at once, each at its line. What was wrong is
-    replaced by what is said next of its kind."""
+    ``Simulation(units="reduced", run=dict(step=0.005), box=dict(low=[0], high=[1]))`` sets top-level tables;
+    ``ensemble``, ``influence``, ``dissipation``, ``diagnosis``, ``wall``, ``event``, ``view`` and ``add`` append
+    one table of a kind. The simulation is built when it is first needed; all mistakes are then reported at once,
+    each with its line. The next table of the same kind replaces a wrong one.
+    """
 
     _document: Document
     _overrides: dict[str, Any]
@@ -97,7 +98,7 @@ class Simulation:
             tables["run"] = {**run, "steps": 0}
             self._planned = False
         if "step" in tables:
-            raise Error(f"{place}: step: it stands in run = dict(step = ...)")
+            raise Error(f"{place}: step: it belongs in run = dict(step = ...)")
         for name, given in tables.items():
             self._table(plain(name), given, place)
 
@@ -139,16 +140,16 @@ class Simulation:
     def _say(self, table: str, keys: Keys, positions: Array | None = None) -> None:
         if self._begun:
             raise Error(
-                f"{caller()}: the run has begun; what acts is said before its first step (diagnoses and observers may "
+                f"{caller()}: the run has begun; add interactions before its first step (diagnoses and observers may "
                 "come at any time)"
             )
         again = self._document.append(table, keys, caller(), positions, once=True)  # by a cell that is run again
         if again:
-            python_warnings.warn(f"this stands in [[{table}]] already, by {again.place}; it is not said twice", stacklevel=3)
+            python_warnings.warn(f"[[{table}]] already has this table, from {again.place}; it is not added again", stacklevel=3)
         self._make_anew()
 
     def _make_anew(self) -> None:
-        """What was made of the tables so far is old; what has been written into its rows is kept."""
+        """Discard the built simulation, but keep values written into its rows."""
         if self._built is not None and self._built.running():
             raise Error("tables can't be added while the simulation runs")
         old, digest = self._built, self._built_digest
@@ -166,8 +167,8 @@ class Simulation:
     _kept_rows: dict[str, tuple[tuple[int, int, int, str], int, bytes]] = {}
 
     def ensemble(self, name: str, class_: str, *, position: Any = None, load: Any = None, **fields: Any) -> Ensemble:
-        """[[ensembles]]: particles of a class, by ``load=dict(kind=...)`` or ``position=`` (N, D) numbers of the base;
-        fields are one value for all, or an array with one for each."""
+        """[[ensembles]]: particles of a class, placed by ``load=dict(kind=...)`` or ``position=`` (N, D) numbers in
+        base units. Fields are one value for all, or an array with one for each."""
         place = caller()
         if not isinstance(name, str) or not isinstance(class_, str):
             raise Error(f"{place}: ensemble: a name and a class are texts, \"atoms\", \"Newton\"")
@@ -175,7 +176,7 @@ class Simulation:
         places = None
         if position is not None:
             if load is not None:
-                raise Error(f"{place}: position, load: one of both says where the particles are")
+                raise Error(f"{place}: position, load: give one of the two")
             load, fields, places = self._given_places(name, class_, position, fields, place)
         for field, given in fields.items():
             if isinstance(given, np.ndarray) and not np.isfinite(given).all():
@@ -226,8 +227,8 @@ class Simulation:
         return self._temporary.name
 
     def influence(self, law: str | None = None, **keys: Any) -> None:
-        """[[influences]]: a shipped law by its name, or ``energy="..."`` (or ``influence="..."``) as a formula. Keys that
-        are no keys of the table are parameters of a typed law."""
+        """[[influences]]: a built-in law by name, or a formula, ``energy="..."`` or ``influence="..."``. Other keys
+        are parameters of the formula."""
         if law is None:
             keys = _typed_law(keys)
         self._say("influences", {"law": law, **keys})
@@ -241,31 +242,31 @@ class Simulation:
         self._say("box.walls", keys)
 
     def event(self, at: Any, **keys: Any) -> None:
-        """[[events]]: something happens at a time, once or every so often."""
+        """[[events]]: a change at a time, once or repeated."""
         self._say("events", {"at": at, **keys})
 
     def view(self, name: str, drawing: str = "cartesian", **keys: Any) -> None:
-        """[[views]]: a drawing that the window offers by its name."""
+        """[[views]]: a named drawing for the window."""
         self._say("views", {"name": name, "drawing": drawing, **keys})
 
     def add(self, table: str, **keys: Any) -> None:
-        """One more table of any kind: ``sim.add("rigid_bonds", on="water", ...)`` says [[rigid_bonds]]."""
+        """Append a table of any kind: ``sim.add("rigid_bonds", on="water", ...)`` adds [[rigid_bonds]]."""
         kinds = {name: heading for name, heading, _ in _core.tables()}
         name = plain(table)
         if name == "box":
             self._box_given = True
         if name in kinds and not kinds[name].startswith("[["):
             if self._begun:
-                raise Error(f"{caller()}: the run has begun; what acts is said before its first step")
+                raise Error(f"{caller()}: the run has begun; add interactions before its first step")
             self._document.table(name, keys, caller())
             self._make_anew()
             return
         self._say(name, keys)
 
     def diagnosis(self, kind: str, every: int | None = None, **keys: Any) -> Diagnosis:
-        """[[diagnoses]]: something is measured. Before the run it is a part of the scenario, and of its table; with
-        ``every``, or once the run has begun, it looks every so many steps and has a table of its own. (A kind's own key
-        of that name is said by ``sim.add("diagnoses", kind=..., every=...)``.)"""
+        """[[diagnoses]]: a measurement. Before the run it becomes part of the scenario and of its table. With
+        ``every``, or once the run has begun, it samples at this interval and has its own table. (To set a kind's
+        own key ``every``, use ``sim.add("diagnoses", kind=..., every=...)``.)"""
         place = caller()
         if every is None and not self._begun:
             self._say("diagnoses", {"kind": kind, **keys})
@@ -324,7 +325,7 @@ class Simulation:
         return core
 
     def check(self) -> Simulation:
-        """Makes it: ScenarioErrors with all mistakes. Warnings are Python's."""
+        """Build the simulation. Raises ScenarioErrors with all mistakes. Warnings are Python warnings."""
         for line in self._core.warnings():
             if line.startswith("warning: "):
                 python_warnings.warn(line.removeprefix("warning: "), stacklevel=3 if sys._getframe(1).f_globals is globals() else 2)
@@ -332,11 +333,11 @@ class Simulation:
 
     @property
     def toml(self) -> str:
-        """The scenario as text: what ``bzm run`` would take."""
+        """The scenario as text, as ``bzm run`` reads it."""
         return self._core.resolved()
 
     def save(self, path: Path) -> None:
-        """Writes the scenario to a file; arrays that are too long for a text stand beside it."""
+        """Write the scenario to a file; long arrays are written to files next to it."""
         path = os.fspath(path)
         if not path.endswith(".toml"):
             raise Error(f"'{path}': a scenario's file ends in .toml")
@@ -359,14 +360,14 @@ class Simulation:
         overwrite: bool = False,
         progress: bool | None = None,
     ) -> Report:
-        """So many steps, or a time (a number, or "5 ps"); else as many as are planned. ``out``: a folder for the files
-        that ``bzm run`` writes, from now on. ``hours`` of wall time end it early. Ctrl-C finishes the step and raises
-        KeyboardInterrupt; run() goes on from there."""
+        """Run a number of steps, or a time (a number or "5 ps"); default: the planned length. ``out``: a folder for
+        the files that ``bzm run`` writes, from now on. ``hours`` limits the wall-clock time. Ctrl-C finishes the
+        step and raises KeyboardInterrupt; run() continues from there."""
         core = self._core
         if steps is None:
             steps = self._steps_of(core, time)
         elif time is not None:
-            raise Error("steps, time: one of both says how long the run is")
+            raise Error("steps, time: give one of the two")
         else:
             steps = _whole(steps, "steps")
         if steps < 0:
@@ -384,7 +385,7 @@ class Simulation:
         return _whole(math.ceil(length / abs(core.step_size()) * (1 - 1e-12)), "time")
 
     def rewind(self, steps: int | None = None) -> Report:
-        """The same with the negative step; without a number back to step 0."""
+        """Run with the negative step; default: back to step 0."""
         core = self._core
         steps = core.step() if steps is None else _whole(steps, "steps")
         if steps < 0:
@@ -412,7 +413,7 @@ class Simulation:
                 self._progress_line = None
 
     def _prepare(self, core: Core, folder: str, overwrite: bool) -> str:
-        """Arrays go where the results are, so that the stored scenario finds them."""
+        """Write arrays next to the results, where the stored scenario finds them."""
         if core.folder() or not self._files:
             return folder
         os.makedirs(folder, exist_ok=True)
@@ -427,12 +428,12 @@ class Simulation:
             self._progress_line.show(step, seconds)
 
     def stop(self) -> None:
-        """Ends the present run after its step; from an observer, or from another thread. It does nothing between runs."""
+        """End the present run after its step; callable from an observer or another thread. No effect between runs."""
         if self._built is not None:
             self._built.stop()
 
     def start(self, steps: int | None = None, **options: Any) -> Simulation:
-        """run() in the background. Arrays are copies meanwhile, taken between two steps. wait() ends it."""
+        """Run in the background. Meanwhile arrays are copies, taken between two steps. wait() ends it."""
         if self._thread is not None and self._thread.is_alive():
             raise Error("start: the simulation runs already; wait() waits for its end")
         self._core  # mistakes are told here
@@ -452,7 +453,7 @@ class Simulation:
         return self
 
     def wait(self) -> Simulation:
-        """Until the run in the background ends; raises what has ended it."""
+        """Wait for the end of the background run; raises the exception that ended it."""
         if self._thread is not None:
             while self._thread.is_alive():
                 self._thread.join(0.1)
@@ -464,7 +465,7 @@ class Simulation:
 
     @property
     def running(self) -> bool:
-        """Whether a run goes on, in this or another thread."""
+        """Whether a run is in progress, in this or another thread."""
         return self._built is not None and self._built.running()
 
     # ---- observers ----
@@ -474,9 +475,9 @@ class Simulation:
     @overload
     def every(self, steps: int, function: _F) -> _F: ...
     def every(self, steps: int, function: Any = None) -> Any:
-        """Calls a function at finished steps that are multiples of this: ``@sim.every(20)``. It may take the simulation
-        as its argument; its views are read only. One of the same name replaces the former. An exception ends the run
-        after its step and comes out of run()."""
+        """Register an observer: ``@sim.every(20)`` calls the function at steps that are multiples of 20. The
+        function may take the simulation as its argument; its views are read-only. A function of the same name
+        replaces the earlier one. An exception ends the run after its step and is raised by run()."""
         return self._attend("look", steps, function)
 
     @overload
@@ -484,13 +485,13 @@ class Simulation:
     @overload
     def change(self, steps: int, function: _F) -> _F: ...
     def change(self, steps: int, function: Any = None) -> Any:
-        """The same for a function that changes particles, or their number, between steps. Such a run can't go back."""
+        """Register a function that changes particles, or their number, between steps. Such a run can't be reversed."""
         return self._attend("change", steps, function)
 
     def _attend(self, kind: str, steps: int, function: Any) -> Any:
         steps = _whole(steps, "every" if kind == "look" else "change")
         if steps < 1:
-            raise Error(f"a function is called every 1 or more steps, not every {steps}")
+            raise Error(f"the interval of a function must be 1 step or more, not {steps}")
         if function is None:
             return lambda given: self._attend(kind, steps, given)
         if not callable(function):
@@ -508,7 +509,7 @@ class Simulation:
         return function
 
     def forget(self, function: Callable[..., Any]) -> None:
-        """An observer is called no more."""
+        """Remove an observer."""
         for number, (known, *_) in list(self._functions.items()):
             if known is function:
                 self._forget(number)
@@ -534,7 +535,7 @@ class Simulation:
             self._looking, self._changing = before
 
     def record(self, what: str, every: int = 1) -> Record:
-        """Keeps copies of a field, "bodies.position", or of one of its components, "bodies.position.x"."""
+        """Record copies of a field, "bodies.position", or of one component, "bodies.position.x"."""
         if not isinstance(what, str) or what.count(".") not in (1, 2):
             raise Error(f"record: a field is 'ensemble.field', such as 'bodies.position', not {what!r}")
         name, field, *component = what.split(".")
@@ -585,22 +586,22 @@ class Simulation:
 
     @property
     def ensembles(self) -> dict[str, Ensemble]:
-        """All of them by their names."""
+        """All ensembles by name."""
         return {name: self[name] for name in self._core.ensembles()}
 
     @property
     def step(self) -> int:
-        """How many steps have been done."""
+        """Number of steps done."""
         return self._core.step()
 
     @property
     def time(self) -> float:
-        """In the base."""
+        """Time in base units."""
         return self._core.time()
 
     @property
     def step_size(self) -> float:
-        """Of the steps to come, in the base; texts have units: ``sim.step_size = "5 fs"``."""
+        """Time step of the next steps, in base units; texts have units: ``sim.step_size = "5 fs"``."""
         return self._core.step_size()
 
     @step_size.setter
@@ -612,7 +613,7 @@ class Simulation:
 
     @property
     def threads(self) -> int:
-        """No bit depends on it."""
+        """Number of threads; results do not depend on it."""
         return self._core.threads()
 
     @threads.setter
@@ -621,49 +622,49 @@ class Simulation:
 
     @property
     def seed(self) -> int:
-        """Of its random numbers."""
+        """Seed of the random numbers."""
         return self._core.seed()
 
     @property
     def title(self) -> str:
-        """Of the scenario."""
+        """Title of the scenario."""
         return self._core.title()
 
     @property
     def description(self) -> str:
-        """Of the scenario."""
+        """Description of the scenario."""
         return self._core.description()
 
     @property
     def box(self) -> BoxEdges:
-        """The box as it is now."""
+        """The present box."""
         return BoxEdges(*self._core.box())
 
     @property
     def mesh(self) -> Mesh:
-        """What the mesh has on its nodes now: ``sim.mesh.potential``, ``sim.mesh.x``."""
+        """Present fields on the nodes of the mesh: ``sim.mesh.potential``, ``sim.mesh.x``."""
         core = self._core
         return Mesh(core.between_steps(lambda: _core.mesh_fields(core)))
 
     @property
     def units(self) -> Units:
-        """Numbers of the base from texts, and in other units."""
+        """Converts texts to base units, and base units to others."""
         return Units(self)
 
     @property
     def folder(self) -> str:
-        """Where files are written; empty: nowhere."""
+        """Folder of output files; empty: none."""
         return self._core.folder()
 
     @property
     def table(self) -> Table:
-        """What the scenario's diagnoses have measured so far, over time."""
+        """Measurements of the scenario's diagnoses so far, over time."""
         core = self._core
         return from_rows(*core.between_steps(core.rows))
 
     def measure(self, what: str, **keys: Any) -> Measured:
-        """A diagnosis of the present state, by its kind and keys: ``sim.measure("energies")["total energy"]``,
-        ``float(sim.measure("temperature"))``. In the units of ``sim.table``."""
+        """Measure the present state by a diagnosis, given its kind and keys: ``sim.measure("energies")["total
+        energy"]``, ``float(sim.measure("temperature"))``. Units are those of ``sim.table``."""
         place = caller()
         document = Document()
         document.append("diagnoses", {"kind": what, **keys}, place)
@@ -675,11 +676,11 @@ class Simulation:
 
     @property
     def conserved(self) -> str:
-        """What was conserved since the first step, and by how much not."""
+        """Conserved quantities and their changes since the first step."""
         return "\n".join(self._core.conserved())
 
     def picture(self, drawing: str | None = None, **keys: Any) -> Picture:
-        """A drawing of the present state; keys are those of [[output.pictures]]."""
+        """Draw the present state; keys are those of [[output.pictures]]."""
         options = {plain(name): given for name, given in keys.items() if given is not None}
         if drawing is not None:
             options = {"drawing": drawing, **options}
@@ -694,8 +695,8 @@ class Simulation:
     def window(
         self, steps: int | None = None, port: int = 0, height: int = 600, play: bool = False, out: Path | None = None
     ) -> Window:
-        """A live page in the notebook's cell, or at ``.address`` for a browser. ``steps`` are planned; ``out`` is a folder
-        for files. ``close()`` ends it."""
+        """A live page in the notebook's cell, or at ``.address`` for a browser. ``steps``: planned steps; ``out``:
+        a folder for files. ``close()`` ends it."""
         from .notebook import Window, check_port
 
         core = self._core
@@ -709,13 +710,13 @@ class Simulation:
         return Window(self, steps, port, height, play)
 
     def digest(self) -> str:
-        """A checksum of step and particles: equal for equal bits."""
+        """A checksum of step and particles, equal for bit-identical states."""
         core = self._core
         return str(core.between_steps(core.digest))
 
     def copy(self) -> Simulation:
-        """A twin in memory, which goes on with the same bits. Functions that change particles change the twin's;
-        observers, diagnoses that came later, and files are not copied."""
+        """A copy in memory, which continues with identical bits. Functions that change particles act on the copy;
+        observers, later diagnoses and files are not copied."""
         core = self._core
         changes = [known for known in self._functions.values() if known[1] == "change"]
         if not all(takes for *_, takes in changes):
@@ -820,7 +821,7 @@ def _has_texts(given: Any) -> bool:
 
 
 def _box_around(places: list[Array]) -> Keys:
-    """An open box for pictures, where nothing is bounded."""
+    """An open box for pictures of unbounded space."""
     if not places:
         return {"low": [0.0, 0.0, 0.0], "high": [1.0, 1.0, 1.0]}
     everything = np.concatenate([p for p in places if p.shape[1] == places[0].shape[1]])
@@ -831,7 +832,7 @@ def _box_around(places: list[Array]) -> Keys:
 
 
 def _typed_law(keys: Keys) -> Keys:
-    """Keys that are none of the table's are numbers with names in the formula."""
+    """Keys that do not belong to the table are constants of the formula."""
     told = _core.keys("influences")
     known = {plain(name): given for name, given in keys.items() if plain(name) in told}
     numbers = {name: given for name, given in keys.items() if plain(name) not in told}
@@ -847,9 +848,10 @@ def load(
     seed: int | None = None,
     threads: int | None = None,
 ) -> Simulation:
-    """A Simulation from the name of a shipped scenario, the path of a file, the text of one, or a dict of its tables.
+    """A Simulation from the name of a shipped scenario, the path of a file, a text, or a dict of tables.
 
-    ``set``: other values of keys, by their paths, {"run.step": "5 fs"}. Nothing runs yet."""
+    ``set`` changes values by path: {"run.step": "5 fs"}. Nothing runs yet.
+    """
     place = caller()
     sim = Simulation.__new__(Simulation)
     assignments = [f"{path}={value(given, path)}" for path, given in (set or {}).items()]

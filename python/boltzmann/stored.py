@@ -1,4 +1,4 @@
-"""Runs that are stored in folders: their tables, frames and pictures; and going on with them."""
+"""Stored runs in folders: tables, frames and pictures; and resuming them."""
 
 from __future__ import annotations
 
@@ -70,12 +70,12 @@ class StoredEnsemble:
 
     @property
     def fields(self) -> list[str]:
-        """The names of what was stored of it."""
+        """Names of the stored fields."""
         return list(self._fields)
 
     @property
     def units(self) -> dict[str, str]:
-        """Of each field the unit of the base in which its numbers are."""
+        """Base unit of each field."""
         return {name: field[3] for name, field in self._fields.items()}
 
     def __len__(self) -> int:
@@ -102,17 +102,17 @@ class Trajectory:
 
     @property
     def steps(self) -> Array:
-        """Of its frames."""
+        """Step of each frame."""
         return np.array(self._stored.steps())
 
     @property
     def times(self) -> Array:
-        """Of its frames, in the base."""
+        """Time of each frame, in base units."""
         return np.array(self._stored.times())
 
     @property
     def ensembles(self) -> list[str]:
-        """Their names."""
+        """Names of the ensembles."""
         return list(self._ensembles)
 
     def __len__(self) -> int:
@@ -133,17 +133,17 @@ class StoredRun:
 
     @property
     def title(self) -> str:
-        """Of its scenario."""
+        """Title of the scenario."""
         return self._stored.title()
 
     @property
     def table(self) -> Table:
-        """diagnoses.csv."""
+        """The table diagnoses.csv."""
         return read_table(os.path.join(self.folder, "diagnoses.csv"))
 
     @property
     def gathered(self) -> dict[str, Table]:
-        """Functions that diagnoses have gathered, by the names of their files."""
+        """Functions averaged by diagnoses, by file name."""
         return {
             file[:-4]: read_table(os.path.join(self.folder, file))
             for file in sorted(os.listdir(self.folder))
@@ -156,18 +156,19 @@ class StoredRun:
         return Trajectory(self._stored)
 
     def frame(self, number: int = -1) -> Keys:
-        """A frame as a start: ``load=`` of an ensemble of the same name, or a value of "ensembles.NAME.load"."""
+        """A frame as initial positions: ``load=`` of an ensemble of the same name, or a value of
+        "ensembles.NAME.load"."""
         return {"kind": "frame", "path": os.path.abspath(os.path.join(self.folder, "trajectory.h5")), "frame": int(number)}
 
     def picture(self, drawing: str | None = None, frame: int = -1, **keys: Any) -> Picture:
-        """A frame, the last unless told, as ``bzm render`` draws it."""
+        """Draw a frame (default: the last), as ``bzm render`` does."""
         options = {plain(name): given for name, given in keys.items() if given is not None}
         if drawing is not None:
             options = {"drawing": drawing, **options}
         return Picture(self._stored.picture(int(frame), words(options)))
 
     def movie(self, path: Path, drawing: str | None = None, fps: int = 25, scale: float = 1, dark: bool = False, **keys: Any) -> None:
-        """All frames as .mp4, .webm or .gif, by ffmpeg."""
+        """Write all frames as .mp4, .webm or .gif, with ffmpeg."""
         path = os.fspath(path)
         if os.path.splitext(path)[1] not in (".mp4", ".webm", ".gif"):
             raise Error(f"'{path}': a movie's file ends in .mp4, .webm or .gif")
@@ -189,14 +190,14 @@ class StoredRun:
             raise Error(f"ffmpeg could not write '{path}': {done.stderr.strip()}")
 
     def replay(self, views: Iterable[str] = (), frames: int = 100, megabytes: float = 8, height: int = 600) -> Replay:
-        """The run as one page that plays by itself: in a notebook, on a site, from a file. ``views``: names of pictures
-        and views of the run; at most so many frames and megabytes."""
+        """The run as one page that plays without a server: in a notebook, on a web site, from a file. ``views``:
+        names of pictures and views of the run; ``frames`` and ``megabytes`` are upper limits."""
         from .notebook import Replay
 
         return Replay(self.folder, list(views), int(frames), float(megabytes), height)
 
     def resume(self) -> Simulation:
-        """``bz.resume`` of its folder."""
+        """Same as ``bz.resume`` of its folder."""
         return resume(self.folder)
 
     def __repr__(self) -> str:
@@ -204,7 +205,7 @@ class StoredRun:
 
 
 def open_run(folder: Path) -> StoredRun | Sweep:
-    """A stored run, finished or not: ``bz.open("results/copper")``. Of the folder of a sweep, the Sweep."""
+    """Open a stored run, finished or not: ``bz.open("results/copper")``. The folder of a sweep gives a Sweep."""
     folder = os.fspath(folder)
     if not os.path.isdir(folder):
         raise Error(f"there is no folder '{folder}' with a run")
@@ -216,13 +217,13 @@ def open_run(folder: Path) -> StoredRun | Sweep:
 
 
 def resume(folder: Path, change: dict[int, Callable[..., Any]] | None = None) -> Simulation:
-    """Goes on with a run of a scenario from its checkpoint, after Ctrl-C, a kill, in a new session: with the same bits,
-    and with its files. ``run()`` goes to the planned end. What changed particles between steps is not stored: ``change``
-    has it, {100: cool} for ``@sim.change(100)``."""
+    """Continue a run of a scenario from its checkpoint, after Ctrl-C or a kill, in a new session: with identical
+    bits and the same files. ``run()`` continues to the planned end. Functions that changed particles between steps
+    are not stored; pass them again as ``change``: {100: cool} for ``@sim.change(100)``."""
     folder = os.fspath(folder)
     path = os.path.join(folder, "scenario.toml")
     if not os.path.exists(os.path.join(folder, "checkpoint.h5")) or not os.path.exists(path):
-        raise Error(f"'{folder}' holds no run of a scenario that could go on: no checkpoint.h5 with a scenario.toml")
+        raise Error(f"'{folder}' contains no run of a scenario that can be continued: no checkpoint.h5 with a scenario.toml")
     with open(path, encoding="utf-8") as file:
         text = file.read()
     sim = Simulation.__new__(Simulation)

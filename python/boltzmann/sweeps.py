@@ -34,7 +34,7 @@ class Sweep:
         return self.table[name]
 
     def error(self, name: str) -> Array:
-        """The standard error of a column's mean over the seeds."""
+        """Standard error of a column's mean over the seeds."""
         for column in (f"{name} error", f"error of {name}", f"{name} +-"):
             if column in self.table:
                 return self.table[column]
@@ -42,7 +42,7 @@ class Sweep:
 
     @property
     def fits(self) -> list[dict[str, float | str]]:
-        """Straight lines through the points, where the scenario's pictures ask for one: the rows of fits.csv."""
+        """Straight-line fits of the scenario's pictures: the rows of fits.csv."""
         path = os.path.join(self.folder, "fits.csv")
         if not os.path.exists(path):
             return []
@@ -51,12 +51,12 @@ class Sweep:
 
     @property
     def series(self) -> Table:
-        """Means over the seeds over time, of all values."""
+        """Means over the seeds over time, for all values."""
         return read_table(os.path.join(self.folder, "series.csv"))
 
     @property
     def runs(self) -> list[StoredRun]:
-        """Each run, in the order of their folders."""
+        """All runs, in the order of their folders."""
         folders = sorted(f for f in os.listdir(self.folder) if f[:1].isdigit())
         return [StoredRun(os.path.join(self.folder, f)) for f in folders]
 
@@ -68,7 +68,7 @@ class Sweep:
 
 
 def stored_sweep(folder: str) -> Sweep:
-    """The sweep in a folder of results. Error if some of its runs are still to be done."""
+    """Open the sweep in a folder of results. Error if some of its runs are not finished."""
     if not os.path.exists(os.path.join(folder, "sweep.csv")):
         raise Error(f"the sweep in '{folder}' has not been finished; 'bzm resume {folder}' does the rest of its runs")
     with open(os.path.join(folder, "runs.csv"), encoding="utf-8", newline="") as file:
@@ -87,9 +87,9 @@ def sweep(
     overwrite: bool = False,
     quiet: bool = True,
 ) -> Sweep:
-    """Runs a scenario (a name, a path, a text or a Simulation) for values of its keys, {"run.step": [0.1, 0.2]}, which go
-    together, each with several seeds. ``table``: the columns of its table. Results stay in ``out``; without it they go
-    when the Sweep does."""
+    """Run a scenario (a name, a path, a text or a Simulation) for values of its keys, {"run.step": [0.1, 0.2]},
+    which vary in step, each with several seeds. ``table``: columns of the result. Results stay in ``out``; default:
+    a temporary folder, removed with the Sweep."""
     place = caller()
     sim = what if isinstance(what, Simulation) else load(what)
     if sim._begun:

@@ -27,9 +27,10 @@ def from_rows(header: list[str], numbers: bytes) -> "Table":
 
 
 class Table:
-    """Columns of numbers over the steps of a run: ``table["total energy"]`` is an array, ``table.units`` says its unit.
+    """Columns of numbers over the steps of a run: ``table["total energy"]`` is an array, ``table.units`` its units.
 
-    In a notebook it shows itself; ``plot()`` draws it, ``to_pandas()`` gives a data frame."""
+    A notebook displays it; ``plot()`` draws it, ``to_pandas()`` returns a data frame.
+    """
 
     def __init__(self, titles: Sequence[str], columns: Sequence[Any]) -> None:
         self.titles = list(titles)
@@ -42,7 +43,7 @@ class Table:
 
     @property
     def names(self) -> list[str]:
-        """Of the columns, without their units."""
+        """Names of the columns, without units."""
         return list(self._columns)
 
     def __len__(self) -> int:
@@ -93,13 +94,13 @@ class Table:
         return f"<table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table><p>{len(self)} rows</p>"
 
     def to_pandas(self) -> Any:
-        """A data frame of pandas, which must be installed; its columns are ``titles``."""
+        """A pandas data frame (pandas must be installed) with ``titles`` as columns."""
         import pandas
 
         return pandas.DataFrame(dict(zip(self.titles, self._columns.values())))
 
     def plot(self, *names: str, x: str = "", logarithmic: bool = False, title: str = "") -> "Picture":
-        """Curves of some columns (all of the first one's unit, if none is named) over another one, the time."""
+        """Plot columns (default: all with the unit of the first) over another one, by default the time."""
         columns = [name for name in self._columns if name != "step"]
         if len(columns) < 2:
             raise Error("the table has no columns to plot: the scenario has no [[diagnoses]], or has not run")
@@ -115,13 +116,13 @@ class Table:
 
 
 class Picture:
-    """A drawing: it shows itself in a notebook; ``save("a.png")`` writes PNG, SVG or PDF."""
+    """A drawing. A notebook displays it; ``save("a.png")`` writes PNG, SVG or PDF."""
 
     def __init__(self, canvas: _core.Canvas) -> None:
         self._canvas = canvas
 
     def png(self, width: int = 1200, height: int = 900, scale: float = 1, dark: bool = False) -> bytes:
-        """The bytes of a PNG, so many pixels wide and high, times the scale."""
+        """The bytes of a PNG of this width and height in pixels, times the scale."""
         return self._canvas.bytes("png", width, height, scale, dark)
 
     def svg(self, width: int = 1200, height: int = 900, dark: bool = False) -> str:
@@ -129,7 +130,7 @@ class Picture:
         return self._canvas.bytes("svg", width, height, 1, dark).decode()
 
     def save(self, path: Path, width: int = 1200, height: int = 900, scale: float = 1, dark: bool = False) -> None:
-        """Writes PNG, SVG or PDF, as the ending says."""
+        """Write PNG, SVG or PDF, chosen by the extension."""
         import os
 
         self._canvas.write(os.fspath(path), width, height, scale, dark)
@@ -142,7 +143,7 @@ class Picture:
 
 
 def words(options: Keys) -> list[tuple[str, str]]:
-    """Keys of a picture as the command line has them."""
+    """Keys of a picture as options of the command."""
     from . import document
 
     return [(name, given if isinstance(given, str) else document.value(given, name)) for name, given in options.items()]

@@ -30,7 +30,7 @@ class Stored {
       std::string const path = folder_ + "/trajectory.h5";
       if (!std::filesystem::exists(path))
         throw Error("'" + folder_ +
-                    "' has no trajectory.h5: the run was not asked for one (trajectory = 10 in [output])");
+                    "' has no trajectory.h5: the run stored none (trajectory = 10 in [output])");
       reader_.emplace(path);
     }
     return *reader_;

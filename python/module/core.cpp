@@ -321,7 +321,7 @@ std::vector<std::string> Core::warnings() {
 
 std::size_t Core::watch(Source const& source, std::uint64_t every) {
   refuse_while_running("a diagnosis can't be added");
-  if (every == 0) throw Error("every: a diagnosis looks every 1 or more steps, not every 0");
+  if (every == 0) throw Error("every: the interval of a diagnosis must be 1 step or more, not 0");
   if (source.text.find("influence") != std::string::npos) simulation().observers_read_influences();
   auto watched = std::make_unique<Watched>(simulation(), scenario_->units);
   add_diagnosis(scenario_, text_of(source));

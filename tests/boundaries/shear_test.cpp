@@ -155,7 +155,7 @@ TEST(Shear, SimulationsRefuseWhatDoesNotGo) {
   {
     Fluid fluid;
     fluid.simulation.integrate(fluid.atoms, Method::deactivate);
-    EXPECT_EQ(fluid.line(), "shear: particles of ensemble 'atoms' stand still, while their images would flow");
+    EXPECT_EQ(fluid.line(), "shear: particles of ensemble 'atoms' are fixed, but their images would flow");
   }
   {
     Fluid fluid;

@@ -78,7 +78,7 @@ TEST(Bzm, WindowWritesAStoredRunIntoAFile) {
   auto const few = run({"window", "run", "-o", "few.html", "--frames", "3", "--view", "Histogram"});
   EXPECT_TRUE(has(few.out, "a recording with 3 of 21 frames")) << few.out << few.err;
   expect_one_line(run({"window", "run", "-o", "run.png"}), 2, {"'run.png' is no page", ".html", "bzm render"});
-  expect_one_line(run({"window", "-o", "run.html"}), 2, {"say which run"});
+  expect_one_line(run({"window", "-o", "run.html"}), 2, {"give the run"});
   expect_one_line(run({"window", "run", "--frames", "3"}), 2, {"--frames requires --out"});
   expect_one_line(run({"window", "run", "-o", "x.html", "--view", "Partcles"}), 2, {"did you mean 'Particles'?"});
   expect_one_line(run({"window", "run", "-o", "x.html", "--megabytes", "0.01"}), 2, {"0.01 MB has no room"});
@@ -525,7 +525,7 @@ TEST(Show, KnowsWhatScenariosKnow) {
 TEST(Show, KnowsKeysAndWordsToo) {
   Folder folder;
   auto const told = [&](char const* name) { return bzm({"show", name}, folder.string()).out; };
-  EXPECT_TRUE(has(told("stop"), "ends the run before its last step: a condition\n    of [run]")) << told("stop");
+  EXPECT_TRUE(has(told("stop"), "ends the run early: a condition\n    of [run]")) << told("stop");
   EXPECT_TRUE(has(told("convention"), "dissipation dpd")) << told("convention");
   EXPECT_TRUE(has(told("material"), "[[ensembles]]")) << told("material");
   EXPECT_TRUE(has(told("reflecting"), "boundary reflecting: elastic walls")) << told("reflecting");
@@ -732,7 +732,7 @@ TEST(Command, ShowsLawsAsTheyAreTyped) {
   test::write_text(folder / "jumps.toml", jumps);
   auto const checked = bzm({"check", "jumps.toml"}, folder.string());
   EXPECT_EQ(checked.status, 0) << checked.err;
-  EXPECT_NE(checked.err.find("warning: the typed law within 'atoms' jumps at its cut-off 30 m"), std::string::npos)
+  EXPECT_NE(checked.err.find("warning: the formula law within 'atoms' jumps at its cut-off 30 m"), std::string::npos)
       << checked.err;
 }
 

@@ -197,7 +197,7 @@ TEST(ProgramRun, DoesNotGoOnBehindItsCondition) {
   EXPECT_EQ(run(), 20);
   EXPECT_EQ(run(), 0);
   setenv("BOLTZMANN_RESUME", "yes", 1);
-  EXPECT_EQ(message([&] { run(); }), "BOLTZMANN_RESUME is 1 (go on with the run in the folder) or 0, not 'yes'");
+  EXPECT_EQ(message([&] { run(); }), "BOLTZMANN_RESUME is 1 (continue the run in the folder) or 0, not 'yes'");
   setenv("BOLTZMANN_RESUME", "0", 1);
   EXPECT_EQ(run(), 20);
   unsetenv("BOLTZMANN_RESUME");

@@ -417,7 +417,7 @@ TEST_F(RanksOfSweep, AKilledRankOrASignalEndsAllAndAnyNumberGoesOn) {
     EXPECT_LT(seconds_since(since), 10);
     EXPECT_EQ(outcome.status, signal == SIGINT ? 130 : 128 + SIGKILL) << outcome.err;
     if (signal == SIGINT) {
-      EXPECT_TRUE(has(outcome.err, "bzm resume stopped goes on with the sweep\n")) << outcome.err;
+      EXPECT_TRUE(has(outcome.err, "bzm resume stopped continues the sweep\n")) << outcome.err;
       EXPECT_TRUE(has(outcome.err, "stopped by a signal after step ")) << outcome.err;
     }
     EXPECT_TRUE(has(text_of(folder / (out + "/runs.csv")), ",waiting,"));

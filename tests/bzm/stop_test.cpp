@@ -43,7 +43,7 @@ TEST(Stop, EndsTheRunAtARowAndChangesNothingBefore) {
 
   auto const done = bzm({"resume", "stopped"}, folder.string());
   EXPECT_EQ(done.status, 0) << done.err;
-  EXPECT_TRUE(has(done.out, "has ended at step 60 (time > 0.5 ps && temperature > 1 K); --steps N goes on"))
+  EXPECT_TRUE(has(done.out, "has ended at step 60 (time > 0.5 ps && temperature > 1 K); --steps N continues"))
       << done.out;
   EXPECT_EQ(checkpoint_of(folder / "stopped").step, 60);
   ASSERT_EQ(bzm({"resume", "stopped", "--steps", "50", "--quiet"}, folder.string()).status, 0);
@@ -92,7 +92,7 @@ TEST(Hours, EndARunThatBzmResumeGoesOnWith) {
   auto const checkpoint = checkpoint_of(folder / "out");
   EXPECT_GT(checkpoint.step, 0);
   EXPECT_TRUE(has(outcome.err, "out of time after step " + std::to_string(checkpoint.step))) << outcome.err;
-  EXPECT_TRUE(has(outcome.err, "bzm resume out goes on")) << outcome.err;
+  EXPECT_TRUE(has(outcome.err, "bzm resume out continues")) << outcome.err;
   EXPECT_TRUE(fs::exists(folder / "out/picture.png"));
   auto const again = bzm({"resume", "out", "--hours", "0.0001", "--quiet"}, folder.string());
   EXPECT_EQ(again.status, 4) << again.err;
@@ -108,7 +108,7 @@ TEST(Hours, StopASweepToo) {
   GasFolder folder;
   auto const outcome = folder.run({"--out", "sweep", "--seeds", "3", "--steps", "1000000000", "--hours", "0.0003"});
   EXPECT_EQ(outcome.status, 4) << outcome.err;
-  EXPECT_TRUE(has(outcome.err, "bzm resume sweep goes on with the sweep")) << outcome.err;
+  EXPECT_TRUE(has(outcome.err, "bzm resume sweep continues the sweep")) << outcome.err;
   EXPECT_EQ(bzm({"resume", "sweep", "--hours", "0.0001", "--quiet"}, folder.string()).status, 4);
 }
 
@@ -120,7 +120,7 @@ TEST(Hours, ArePositiveAndNotForWindows) {
     EXPECT_EQ(lines_in(outcome.err), 1U) << outcome.err;
     EXPECT_TRUE(has(outcome.err, "--hours")) << outcome.err;
   }
-  EXPECT_TRUE(has(folder.run({"--hours", "1", "--window"}).err, "--hours is for runs without a --window"));
+  EXPECT_TRUE(has(folder.run({"--hours", "1", "--window"}).err, "--hours is for runs without --window"));
   EXPECT_FALSE(fs::exists(folder / "results"));
 }
 

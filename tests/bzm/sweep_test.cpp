@@ -293,7 +293,7 @@ TEST(SweepOptions, WhatVariesIsNotSetBesides) {
   auto const steps = bzm({"check", "timed.toml", "--steps", "3", "--vary", "run.time=[0.2,0.4]"}, folder.string());
   EXPECT_EQ(steps.status, 2);
   EXPECT_EQ(steps.err,
-            "--steps=3: run.steps: the sweep of this scenario varies run.time, which says the same; give --vary "
+            "--steps=3: run.steps: the sweep of this scenario varies run.time, which sets the same; give --vary "
             "run.time=[...], or --no-sweep\n");
   auto const vary = bzm({"check", "timed.toml", "--vary", "run.step=[0.2,0.1,0.05]"}, folder.string());
   EXPECT_NE(vary.out.find("in each of 3 runs"), std::string::npos) << vary.out << vary.err;

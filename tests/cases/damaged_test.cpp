@@ -139,7 +139,7 @@ TEST(Damaged, AFrameThatIsNotWhatWasWrittenIsToldWhenARunGoesOn) {
   auto const outcome = bzm({"resume", "good", "--steps", "10", "--quiet"}, folder.string());
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_TRUE(
-      has(outcome.err, "its frame 3 is damaged: /particles/atoms/velocity is not what was written; the run goes on"))
+      has(outcome.err, "its frame 3 is damaged: /particles/atoms/velocity is not what was written; the run continues"))
       << outcome.err;
 }
 

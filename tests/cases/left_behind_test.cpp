@@ -77,7 +77,7 @@ TEST(LeftBehind, ARunThatWasKilledBeforeItsFirstCheckpointIsResumedFromTheStart)
   auto const refused = bzm({"resume", "out"}, folder.string());
   EXPECT_EQ(refused.status, 2);
   EXPECT_EQ(lines_in(refused.err), 1U) << refused.err;
-  EXPECT_TRUE(has(refused.err, "'out' has results but no checkpoint.h5 to go on from")) << refused.err;
+  EXPECT_TRUE(has(refused.err, "'out' has results but no checkpoint.h5 to continue from")) << refused.err;
   EXPECT_TRUE(files_of(folder / "out") == before);
 }
 

@@ -39,7 +39,7 @@ TEST(InstructionSet, WrongWordsAreSaidWithTheAllowedOnes) {
             "BOLTZMANN_INSTRUCTIONS is 'x86-64-v5', which is no instruction set of this library; there are x86-64, "
             "x86-64-v3; did you mean 'x86-64-v3'?");
   EXPECT_EQ(message([&] { detail::choose_instruction_set("x86-64-v4", every, older); }),
-            "BOLTZMANN_INSTRUCTIONS asks for x86-64-v4, which this processor can't run; it can run x86-64, x86-64-v3");
+            "BOLTZMANN_INSTRUCTIONS requests x86-64-v4, which this processor can't run; it can run x86-64, x86-64-v3");
   EXPECT_EQ(message([] { detail::choose_instruction_set("sse", {native}, {native}); }),
             "BOLTZMANN_INSTRUCTIONS is 'sse', which is no instruction set of this library; the only one is native");
 }

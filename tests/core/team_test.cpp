@@ -155,7 +155,7 @@ TEST(Team, AMessageOfAnotherSizeEndsAll) {
     team.exchange(messages);
     wait_for_all(team);
   });
-  EXPECT_EQ(line_of(thrown[1]), "a message between ranks has another size than is asked for");
+  EXPECT_EQ(line_of(thrown[1]), "a message between ranks has another size than the receiver expects");
   EXPECT_EQ(line_of(thrown[0]), "another rank has ended all");
 }
 

@@ -209,7 +209,7 @@ TEST_F(Diagnoses, RefuseWhatTheyDontKnow) {
   with = parameters();
   with.particles = {0};
   EXPECT_EQ(message([&] { make_diagnosis("mean-velocity", with); }),
-            "a group of chosen particles belongs to one ensemble; say which of atoms, fluid");
+            "a group of chosen particles belongs to one ensemble; name one of atoms, fluid");
   with.ensembles = {"atoms"};
   with.particles = {2};
   EXPECT_EQ(message([&] { make_diagnosis("mean-velocity", with); }),

@@ -237,7 +237,7 @@ TEST(WaveSpectrum, RemembersAcrossARestartAndRefusesGaps) {
   broken.pop_back();
   EXPECT_NE(message([&] { second.restore(broken); }).find("another length"), std::string::npos);
   EXPECT_NE(message([&] { second.restore({}); }).find("another length"), std::string::npos);
-  EXPECT_NE(message([] { WaveSpectrum("density").power(); }).find("4 or more looks"), std::string::npos);
+  EXPECT_NE(message([] { WaveSpectrum("density").power(); }).find("4 or more samples"), std::string::npos);
 }
 
 // ---- Records and pictures ----

@@ -295,11 +295,11 @@ TEST(RadialDistribution, OfGroupsIsThatOfEnsembles) {
   EXPECT_EQ(message([&] {
               RadialDistribution({&one, &two}, {.particles = {1}});
             }),
-            "a group of chosen particles belongs to one ensemble; say which of one, two");
+            "a group of chosen particles belongs to one ensemble; name one of one, two");
   EXPECT_EQ(message([&] { StructureFactor({&all}, {.particles = {60}}); }),
             "ensemble 'all' has 60 particles, numbered from 0; there is no particle 60");
   EXPECT_EQ(message([&] { StructureFactor({&all}, {.partners = {6}}); }),
-            "'partners' are those of a group; say which by 'particles'");
+            "'partners' belong to a group; choose it with 'particles'");
   EXPECT_EQ(message([&] {
               RadialDistribution({&all}, {.particles = {1, 2}, .partners = {2, 3}});
             }),

@@ -39,7 +39,7 @@ struct Gas {
 };
 
 std::string const no_wall =
-    "no wall at an end of x runs into the matter: say from which end the shock comes, low or high";
+    "no wall at an end of x runs into the matter; set end = \"low\" or \"high\", the end from which the shock comes";
 
 // The mean velocity of 2000 particles of mass 1 and temperature 1 is 0 +- 0.022: a wall at rest does not run into them.
 TEST(ShockMisuse, NoiseIsNoPiston) {

@@ -316,10 +316,11 @@ TEST(Shock, Refusals) {
   Box const open(Vector{0.0, 0.0}, Vector{200.0, 10.0});
   Sample const sample = made.at(0);
   Shock lost(made.available, {});
-  EXPECT_EQ(message([&] {
-              look(lost, Sample{sample.ensembles, open, nullptr, 1, 0, 0});
-            }),
-            "no wall at an end of x runs into the matter: say from which end the shock comes, low or high");
+  EXPECT_EQ(
+      message([&] {
+        look(lost, Sample{sample.ensembles, open, nullptr, 1, 0, 0});
+      }),
+      "no wall at an end of x runs into the matter; set end = \"low\" or \"high\", the end from which the shock comes");
   Ensemble<Meso<2>> none("lumps");
   std::vector<AnyEnsemble*> const empty{&none};
   Shock nothing({&none}, {});

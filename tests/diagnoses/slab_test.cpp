@@ -129,7 +129,7 @@ TEST(Slab, WhatAWindowCanNotBe) {
   EXPECT_EQ(says({.axis = 0, .from = 11}), "a slab along x from 11 to 10: its begin must be below its end");
   EXPECT_EQ(says({.axis = 2}), "a slab along axis z: the space has 2 axes");
   EXPECT_EQ(says({.axis = 0, .count = 0}), "a slab diagnosis needs at least one slab");
-  EXPECT_EQ(message([] { Slab slab({}, {}); }), "a slab needs particles to look at; the simulation has none");
+  EXPECT_EQ(message([] { Slab slab({}, {}); }), "a slab needs particles; the simulation has none");
   Ensemble<Tracer<2>> vortices("vortices", 1);
   EXPECT_EQ(message([&] { Slab slab({&vortices}, {}); }),
             "a slab needs particles with a mass and a velocity; no ensemble that was chosen has both");

@@ -247,7 +247,7 @@ TEST(TimeCorrelation, OfAGroupIsThatOfAnEnsemble) {
   EXPECT_EQ(message([&] {
               MeanSquareDisplacement({&all, &some}, of_group);
             }),
-            "a group of chosen particles belongs to one ensemble; say which of all, some");
+            "a group of chosen particles belongs to one ensemble; name one of all, some");
 }
 
 }  // namespace

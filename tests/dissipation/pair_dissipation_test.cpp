@@ -528,7 +528,7 @@ TEST(DissipationErrors, EnsemblesAndBoxes) {
   EXPECT_EQ(message([&] { dpd.internal(meso, usual(0)); }), "dissipation: range is a positive length, not 0");
   dpd.internal(meso, usual());
   EXPECT_EQ(message([&] { dpd.check(); }),
-            "ensemble 'meso' has internal energies but no state law: say what its heat capacity is");
+            "ensemble 'meso' has internal energies but no heat capacity; set heat_capacity");
   dpd.state(meso, StateLaw(2));
   EXPECT_EQ(message([&] { dpd.check(); }), "no error");
   EXPECT_EQ(message([&] {

@@ -364,7 +364,7 @@ TEST(RescalingBaths, RefuseInOneLine) {
   Simulation simulation(scheme, 0.1);
   simulation.add(bath);
   EXPECT_EQ(message([&] { simulation.check(); }),
-            "the heat bath of 'gas' scales velocities, and nobody moves: give the ensemble a temperature");
+            "the heat bath of 'gas' scales velocities, but no particle moves: give the ensemble a temperature");
   gas.resize(1);
   gas[0].velocity = {1, 2};
   EXPECT_NE(message([&] { simulation.check(); }).find("has no degree of freedom to act on"), std::string::npos);

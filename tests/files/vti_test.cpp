@@ -123,7 +123,7 @@ TEST(MeshFrames, IndexIsWhatIsThere) {
   MeshFrames::append_to(folder / "", 150);
   std::filesystem::resize_file(folder / "mesh/000000100.vti", 100);
   std::string const refused = message([&] { MeshFrames::append_to(folder / "", 150); });
-  EXPECT_NE(refused.find("mesh/000000100.vti' is no whole mesh frame; remove it"), std::string::npos) << refused;
+  EXPECT_NE(refused.find("mesh/000000100.vti' is an incomplete mesh frame; remove it"), std::string::npos) << refused;
   MeshFrames::remove(folder / "");
   EXPECT_FALSE(std::filesystem::exists(folder / "mesh.pvd"));
   EXPECT_FALSE(std::filesystem::exists(folder / "mesh/000000000.vti"));

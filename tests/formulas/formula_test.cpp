@@ -122,7 +122,7 @@ TEST(Formula, SaysWhatIsWrongAndWhere) {
       {"1.2.3", 0, {"'1.2.3' is no number"}},
       {"1e999", 0, {"'1e999' is no number"}},
       {".", 0, {"'.' is no number"}},
-      {"x & y", 2, {"'&' can't stand here"}},
+      {"x & y", 2, {"'&' is not allowed here"}},
       {"x # 2", 2, {"'#'"}},
       {"\xc3\xa9 + 1", 0, {"'\xc3\xa9'"}},
       {"x \xc3\xa9", 2, {"'\xc3\xa9'"}},

@@ -194,17 +194,16 @@ TEST(EmbeddedFile, SaysWhatIsWrongWithIt) {
   EXPECT_EQ(file.error(), " the file ends before line 3, a comment, or the head of a table");
   file.write("one\ntwo\nthree\nfour\n");
   EXPECT_EQ(file.error(),
-            "2: neither setfl, whose line 4 says how many elements there are and their names, nor funcfl, whose line 2 "
-            "has the atomic number, mass and lattice of one");
+            "2: neither setfl (line 4 has the number of elements and their names) nor funcfl (line 2 has the atomic "
+            "number, mass and lattice of one element)");
   EXPECT_EQ(with("2 Aa Bb", "3 Aa Bb"), "4: 3 elements and 2 names; as many of both are needed, up to 10");
   EXPECT_EQ(with(head(), "3 0.1 1001 0.1 5\n"), "5: Nrho = 3; a whole number from 5 to 1000000 is needed");
   EXPECT_EQ(with(head(), "100 0.1 1001 0.1\n"), "5: 4 words; the line \"Nrho drho Nr dr cutoff\" has 5 numbers");
   EXPECT_EQ(with(head(), "100 0.1 1001 -0.1 5\n"), "5: dr = -0.1 must be positive");
   std::string const first = whole.substr(whole.find("FCC\n") + 4, 10);
   EXPECT_EQ(with(first, "nonsense "), "7: 'nonsense' is not a finite number");
-  EXPECT_NE(
-      with(first, "1 2 3 4 5 ").find("stands behind the last of the 1001 numbers of the embedding energies of Aa"),
-      std::string::npos);
+  EXPECT_NE(with(first, "1 2 3 4 5 ").find("follows the last of the 1001 numbers of the embedding energies of Aa"),
+            std::string::npos);
 }
 
 }  // namespace

@@ -71,10 +71,10 @@ TEST(TypedLaw, IsToldToBeNoNumberOrToJump) {
   };
   EXPECT_EQ(told(FormulaLaw::energy("1/r^12 - 2/r^6")), "");
   EXPECT_EQ(told(FormulaLaw::energy("1e-20/r^60")), "");
-  EXPECT_NE(told(FormulaLaw::energy("sqrt(r - 0.754)")).find("'atoms' is no finite number at a distance of 0.75"),
+  EXPECT_NE(told(FormulaLaw::energy("sqrt(r - 0.754)")).find("'atoms' is not finite at a distance of 0.75"),
             std::string::npos)
       << told(FormulaLaw::energy("sqrt(r - 0.754)"));
-  EXPECT_NE(told(FormulaLaw::energy("1/(p.charge - q.charge)^2/r")).find("no finite number at a distance of 3"),
+  EXPECT_NE(told(FormulaLaw::energy("1/(p.charge - q.charge)^2/r")).find("not finite at a distance of 3"),
             std::string::npos);
   std::string const jump = told(FormulaLaw::energy("1/r"));
   EXPECT_NE(jump.find("jumps at its cut-off 3"), std::string::npos) << jump;

@@ -160,7 +160,7 @@ TEST_F(ParticleFile, Pdb) {
   EXPECT_EQ(read("a.pdb", text, {.frame = 1}).species, (Words{"OW"}));
   EXPECT_EQ(message("a.pdb", text, {.frame = 2}), ":12: the file has 2 frames, there is no frame 2 (the first is 0)");
   EXPECT_EQ(message("a.pdb", "ATOM      1  OW  SOL     1       5.690  12.751\n"),
-            ":1: an atom's line ends before its z, which stands in columns 47 to 54");
+            ":1: an atom's line ends before its z, which is in columns 47 to 54");
   EXPECT_EQ(message("a.pdb", "REMARK nothing\n"), ":2: the PDB file has no atoms");
   // 0.001 angstrom is what such a box can say.
   Box const box({0, 0, 0}, {18.7743, 18.774, 18.774}, Boundary::periodic),
@@ -293,13 +293,15 @@ TEST_F(ParticleFile, ContradictionsAreRefused) {
   std::string const vasp = "t\n1\n4 0 0\n0 4 0\n0 0 4\nNa Cl\n1 1\nDirect\n0 0 0\n0.5 0.5 0.5\n";
   for (auto const& [file, text, words] : {
            Wrong{"w.data", with(water, "3 atoms", "2 atoms"), "the section Atoms has more lines than the 2 atoms"},
-           {"w.data", with(water, "2 bonds", "3 bonds"), "the section Bonds has 2 lines, the header says 3"},
-           {"w.data", with(water, "2 bonds\n", ""), "the section Bonds has 2 lines, the header says 0"},
+           {"w.data", with(water, "2 bonds", "3 bonds"), "the section Bonds has 2 lines, the header announces 3"},
+           {"w.data", with(water, "2 bonds\n", ""), "the section Bonds has 2 lines, the header announces 0"},
            {"w.data", with(water, "2 bonds", "2 bonds\n4 angles"),
-            "the header says 4 angles, and there is no section Angles"},
-           {"w.data", with(water, "2 atom types", "1 atom types"), "there is no type 2; the header says 1 atom types"},
-           {"w.data", with(water, "3 1 2 0.4238", "3 1 3 0.4238"), "there is no type 3; the header says 2 atom types"},
-           {"w.data", with(water, "3 atoms", "3 atoms\n3 atoms"), "the header says 'atoms' twice"},
+            "the header announces 4 angles, but there is no section Angles"},
+           {"w.data", with(water, "2 atom types", "1 atom types"),
+            "there is no type 2; the header announces 1 atom types"},
+           {"w.data", with(water, "3 1 2 0.4238", "3 1 3 0.4238"),
+            "there is no type 3; the header announces 2 atom types"},
+           {"w.data", with(water, "3 atoms", "3 atoms\n3 atoms"), "the header has 'atoms' twice"},
            {"w.data", with(water, "Bonds\n", "Masses\n"), "there is a section Masses already"},
            {"w.data", with(water, "2 1.00794 # H", "1 1.00794 # H"), "Masses has type '1' already"},
            {"w.data", with(water, "3 0 0 -0.003", "1 0 0 -0.003"), "atom 1 has a velocity already"},
@@ -308,7 +310,7 @@ TEST_F(ParticleFile, ContradictionsAreRefused) {
            {"w.data", with(water, "0.0 10.0 ylo yhi", "10 0 0 bvec\n0 9 0 avec\n0 0 9 cvec"), "the box twice"},
            {"w.data", with(water, "2 bonds", "two bonds"),
             ":5: 'two bonds' is neither a line of the header nor a section"},
-           {"w.data", with(water, "2 1.00794 # H\n", ""), "Masses has 1 types, the header says 2"},
+           {"w.data", with(water, "2 1.00794 # H\n", ""), "Masses has 1 types, the header announces 2"},
            {"w.dump", with(dump, "2 1 2 2 2", "1 1 2 2 2"), ":11: there is an atom 1 already"},
            {"w.dump", with(dump, "2 1 2 2 2", "2 1 2 2 2 2"), ":11: an atom needs 5 words, this line has 6"},
            {"w.dump", dump + "3 1 3 3 3\n", ":12: the frame has more lines than its 2 atoms"},
@@ -494,7 +496,7 @@ TEST_F(ParticleFile, StylesOfLammps) {
   EXPECT_EQ(values(frame, "muy"), Numbers{5});
   // The comment and the scenario may not differ; a comment that is no style does not matter if the scenario says it.
   EXPECT_NE(message("a.data", head + "Atoms # full\n\n1 1 1 0.5 1 2 3\n", {.style = "sphere"})
-                .find("the file says style full, the scenario sphere"),
+                .find("the file has style full, the scenario sphere"),
             std::string::npos);
   EXPECT_EQ(values(read("a.data", head + "Atoms # made by hand\n\n1 1 1 0.5 1 2 3\n", {.style = "full"}), "charge"),
             Numbers{0.5});

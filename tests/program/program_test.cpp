@@ -110,8 +110,8 @@ TEST_F(Programs, SayWhatIsWrong) {
                           {{"--threads", "0"}, "--threads: a whole number of 1 to 4096 is needed, not '0'"},
                           {{"--quiet=1"}, "--quiet has no value"},
                           {{"a", "b"}, "'b': the folder for the results is 'a' already"},
-                          {{"--steps", "3", "--time", "4"}, "--steps and --time say the same"},
-                          {{"--play"}, "--play is for a --window"},
+                          {{"--steps", "3", "--time", "4"}, "--steps and --time both set the length"},
+                          {{"--play"}, "--play needs --window"},
                           {{"--out", ""}, "the folder for the results has no name"},
                           {{"--time", "3 kg", "--quiet"}, "3 kg"}}) {
     testing::internal::CaptureStderr();
@@ -126,7 +126,7 @@ TEST_F(Programs, SayWhatIsWrong) {
 TEST_F(Programs, RefuseASeedThatChangesNothing) {
   testing::internal::CaptureStderr();
   EXPECT_EQ(run({"--seed", "4", "--quiet"}, 0, false), 2);
-  EXPECT_NE(testing::internal::GetCapturedStderr().find("--seed: nothing in this program asks"), std::string::npos);
+  EXPECT_NE(testing::internal::GetCapturedStderr().find("--seed: this program uses no seed"), std::string::npos);
   EXPECT_FALSE(fs::exists(folder()));
 }
 

@@ -130,7 +130,7 @@ INSTANTIATE_TEST_SUITE_P(
             gas + among + "depth = 1\nr0 = { a = 1, b = -1, \"c-d\" = 1, \"b-c-d\" = 1 }\nmixing.r0 = \"geometric\"\n",
             "33:19",
             {"r0: ", "have no geometric mean"}},
-        Mistake{"also on", gas + among + right + "on = \"a\"\n", "34:1", {"on: 'among' says on whom already"}},
+        Mistake{"also on", gas + among + right + "on = \"a\"\n", "34:1", {"on: 'among' already chooses the ensembles"}},
         Mistake{"unknown ensemble",
                 gas + "[[influences]]\nlaw = \"lennard-jones\"\namong = [\"a\", \"bb\"]\n" + right,
                 "31:15",

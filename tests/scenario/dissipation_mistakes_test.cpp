@@ -84,7 +84,7 @@ std::vector<Mistake> const rows{
      "31:11",
      {"weight: the weight must be zero or more and finite", "at r = 0.501 range"}},
     {"weight that is infinite", first("weight = \"range/r\""), "31:11", {"at r = 0 range it is inf"}},
-    {"weight and exponent", first("exponent = 2\nweight = \"1\""), "31:12", {"exponent", "'weight' says what chi is"}},
+    {"weight and exponent", first("exponent = 2\nweight = \"1\""), "31:12", {"exponent", "'weight' also defines chi"}},
     {"weight that is a number", first("weight = 1"), "31:10", {"weight", "text"}},
     {"parameters of no formula", first("parameters = { a = 1 }"), "31:14", {"parameters", "formulas use them"}},
     {"parameter with a name that is taken",
@@ -285,7 +285,7 @@ TEST(DissipationMistakesInAll, SmoothParticlesAndMeshesHaveNone) {
                             "\"Coulomb\"\nmass = 1\ncharge = 1\nnumber = 9\nload = { kind = \"random\" }\n" +
                             friction);
   ASSERT_FALSE(lines.empty());
-  EXPECT_NE(testing::PrintToString(lines).find("a scenario with a [mesh] does not look for"), std::string::npos)
+  EXPECT_NE(testing::PrintToString(lines).find("a scenario with a [mesh] has no neighbour lists"), std::string::npos)
       << testing::PrintToString(lines);
 }
 

@@ -472,7 +472,8 @@ TEST(Ensembles, MistakesAreToldInOneLine) {
   expect("[[events]]\nat = 1\non = \"a\"\nadd = 3\n", {"add: a table"});
   expect("[[events]]\nat = 1\non = \"a\"\nadd = { velocity = [1, 0] }\n", {"add has no 'load'"});
   expect("[[events]]\nat = 1\non = \"a\"\nadd = { load = { kind = \"random\" } }\n", {"needs 'number'"});
-  expect("[[events]]\nat = 1\non = \"a\"\nadd = { number = 0, load = { kind = \"random\" } }\n", {"0 adds nobody"});
+  expect("[[events]]\nat = 1\non = \"a\"\nadd = { number = 0, load = { kind = \"random\" } }\n",
+         {"0 adds no particle"});
   auto const first = [](std::string const& mesh, std::string const& load) {
     auto const lines = test::mistakes_of(space("[0, 0, 0]", "[9, 9, 9]", "periodic") +
                                          "[mesh]\nlaw = \"coulomb\"\nk = 1\nbackground = true\n" + mesh +
@@ -480,7 +481,7 @@ TEST(Ensembles, MistakesAreToldInOneLine) {
                                          comes("a", "load = { kind = \"positions\", positions = [[1, 1, 1]] }"));
     return lines.size() == 1 ? lines[0] : fmt::format("{} lines", lines.size());
   };
-  EXPECT_NE(first("accuracy = 1e-3\n", "kind = \"random\"").find("nobody is there before"), std::string::npos);
+  EXPECT_NE(first("accuracy = 1e-3\n", "kind = \"random\"").find("no particles exist at the start"), std::string::npos);
   EXPECT_NE(first("cells = 8\n", "kind = \"fill\", spacing = 1").find("without places of its own"), std::string::npos);
   EXPECT_EQ(first("cells = 8\n", "kind = \"quiet\""), "0 lines");
   expect(added + ", set = [{ particles = [0], freeze = true }] }\n", {"freeze: particles that are added"});
@@ -517,7 +518,7 @@ TEST(Additions, ThatCantBeEndTheRunInOneLine) {
   other->simulation->happen(
       0.1, [&] { more.resize(51); }, false);
   EXPECT_EQ(message([&] { other->simulation->run(30); }),
-            "step 20: an event that adds particles is told by add_particles() (C++), and none takes them away");
+            "step 20: only add_particles() (C++) may add particles in an event, and no event may remove them");
   EXPECT_EQ(message([&] { append(more, Ensemble<Newton<3>>("n", 1)); }),
             "particles of class Newton in 3D can't be added to 'a', whose class is Newton in 2D");
 }

@@ -218,7 +218,7 @@ TEST(FlowScenario, RefusesWhatCantBe) {
            {start + "[cylinder_flow]\nradius = 3\n" + vortices, "vortex 0 of 'vortices' is inside"},
            {start + cylinder + vortices +
                 "[[bodies]]\nname = \"b\"\nshape = \"circle\"\ncentre = [3, 3]\nradius = 0.5\n",
-            "let the cylinder be one of the [[bodies]]"},
+            "make the cylinder one of the [[bodies]]"},
            {start + "[cylinder_flow]\nradius = 1\n[[ensembles]]\nname = \"a\"\nclass = \"Newton\"\nload = { kind = "
                     "\"positions\", "
                     "positions = [[2, 2]] }\n",

@@ -188,7 +188,7 @@ TEST(MoleculesInScenarios, MistakesAreTold) {
   std::string const spring = "law = \"spring\"\nstiffness = 1\nrest_length = 1\n";
   expect_mistake(start + "[[influences]]\non = \"beads\"\nconnect = \"bonds\"\n" + spring,
                  "connect: 'beads' has no bonds");
-  expect_mistake(with(spring + "angles = \"bonds\"\n"), "angles: it belongs to a typed law");
+  expect_mistake(with(spring + "angles = \"bonds\"\n"), "angles: it belongs to a formula law");
   expect_mistake(with("energy = \"angle\"\nangles = \"bonds\"\ndihedrals = \"bonds\"\n"), "there are angles already");
   expect_mistake(with("energy = \"angle\"\nangles = \"bonds\"\ncutoff = 2\n"),
                  "cutoff: it means nothing beside angles");
@@ -238,7 +238,7 @@ TEST(MoleculesInScenarios, GroupsAreChosenByFormulas) {
   expect_mistake(kinds + diagnosis("where = \"mass > 2\"\npartners = [500]\n"),
                  "partners: there is no particle 500; 'beads' has 120");
   expect_mistake(kinds + diagnosis("where = \"mass > 2\"\npartners = \"mess < 2\"\n"), "mess");
-  expect_mistake(kinds + diagnosis("partners = \"mass < 2\"\n"), "'partners' are those of a group");
+  expect_mistake(kinds + diagnosis("partners = \"mass < 2\"\n"), "'partners' belong to a group");
 }
 
 }  // namespace

@@ -114,7 +114,7 @@ Mistake const rows[] = {
      stars("periodic", ""),
      "10:1",
      {"the strengths sum to 1.04", "background = true"}},
-    {"multipoles between mirrors", stars("mirror", ""), "10:1", {"axis x is mirror", "a mesh has them"}},
+    {"multipoles between mirrors", stars("mirror", ""), "10:1", {"axis x is mirror", "use [mesh]"}},
     {"a grid of multipoles for one axis", stars("open", "grid = [4]\n"), "13:8", {"grid: 1 number for 2 axes"}},
     {"test particles that are not there",
      stars("open", "test_particles = \"gass\"\n"),

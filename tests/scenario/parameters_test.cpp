@@ -238,8 +238,8 @@ TEST(AbsentKeys, AreToldAsTheirTablesHaveThem) {
   EXPECT_EQ(skin.low, 0);
   EXPECT_FALSE(skin.low_excluded);
   EXPECT_EQ(skin.value, "");
-  EXPECT_EQ(skin.otherwise, "chosen for you");
-  EXPECT_TRUE(skin.doc.starts_with("by how much neighbour lists reach further")) << skin.doc;
+  EXPECT_EQ(skin.otherwise, "automatic");
+  EXPECT_TRUE(skin.doc.starts_with("reach of neighbour lists beyond")) << skin.doc;
   auto const& threads = of("run.threads");
   EXPECT_EQ(threads.kind, "integer");
   EXPECT_EQ(threads.value, "0");
@@ -247,7 +247,7 @@ TEST(AbsentKeys, AreToldAsTheirTablesHaveThem) {
   // One that is read by code says in words what it may be.
   auto const& stop = of("run.stop");
   EXPECT_EQ(stop.kind, "text");
-  EXPECT_EQ(stop.doc, "ends the run before its last step: a condition");
+  EXPECT_EQ(stop.doc, "ends the run early: a condition");
   EXPECT_EQ(stop.otherwise, "none");
 
   std::string const ensemble = "ensembles.Ärgon # 1.";
@@ -309,8 +309,8 @@ TEST(AbsentKeys, WhatIsThereIsExplained) {
     return std::string("?");
   };
   EXPECT_TRUE(doc("run.cutoff").starts_with("distance beyond which pair laws are zero")) << doc("run.cutoff");
-  EXPECT_EQ(doc("box.high"), "the upper edges");
-  EXPECT_EQ(doc("ensembles.Ärgon # 1.load.spacing"), "of nearest neighbours");
+  EXPECT_EQ(doc("box.high"), "upper edges");
+  EXPECT_EQ(doc("ensembles.Ärgon # 1.load.spacing"), "distance of nearest neighbours");
   EXPECT_EQ(doc("ensembles.Ärgon # 1.load.kind"), "a block of crystal");
   EXPECT_FALSE(doc("ensembles.Ärgon # 1.mass").empty());
   EXPECT_FALSE(doc("influences.0.law").empty());

@@ -146,6 +146,38 @@ TEST(Scenario, StoredFormKeepsNumbersAndTexts) {
 
 // ---- What the file says ----
 
+// Other names of tables: the same simulation, also with paths of the command line; both names at once are a mistake.
+TEST(Scenario, TablesHaveOtherNames) {
+  std::string text = read_scenario(find_scenario("copper")).text;
+  auto const named = [&](std::string const& before, std::string const& after) {
+    std::string changed = text;
+    for (auto at = changed.find(before); at != std::string::npos; at = changed.find(before, at + after.size()))
+      changed.replace(at, before.size(), after);
+    EXPECT_NE(changed, text) << before;
+    text = changed;
+  };
+  Overrides deeper;
+  deeper.set = {"influences.0.depth='0.5 eV'"};
+  auto const usual = parse_scenario(text, "a.toml", deeper);
+  named("[[influences]]", "[[interactions]]");
+  named("[[diagnoses]]", "[[measurements]]");
+  deeper.set = {"interactions.0.depth='0.5 eV'"};
+  auto const other = parse_scenario(text, "a.toml", deeper);
+  expect_same_bits(*usual, *other);
+  EXPECT_EQ(usual->resolved, other->resolved);
+  usual->simulation->run(20);
+  other->simulation->run(20);
+  expect_same_bits(*usual, *other);
+  try {
+    parse_scenario(text + "\n[[influences]]\n", "a.toml");
+    FAIL() << "two names of one table";
+  } catch (ScenarioErrors const& errors) {
+    EXPECT_NE(errors.lines[0].find("[[interactions]] is another name of [[influences]]; use one of the two"),
+              std::string::npos)
+        << errors.lines[0];
+  }
+}
+
 TEST(Scenario, LoadsInTheBase) {
   auto const scenario = parse_scenario(
       "[units]\nbase = \"custom\"\nlength = \"1 angstrom\"\nmass = \"1 amu\"\ntime = \"1 ps\"\n"

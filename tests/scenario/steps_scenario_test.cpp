@@ -75,7 +75,7 @@ INSTANTIATE_TEST_SUITE_P(
                 with("gauss-radau", "leap-frog"),
                 "9:13",
                 {"tolerance: it is that of gauss-radau, by which no ensemble moves"}},
-        Mistake{"substeps of nothing", divided("{}"), "9:12", {"substeps: nothing says how long they may be"}},
+        Mistake{"substeps of nothing", divided("{}"), "9:12", {"substeps: no limit is set"}},
         Mistake{"substeps as a number", divided("0.1"), "9:12", {"substeps: a table is needed"}},
         Mistake{"substeps of a wrong key", divided("{ distanc = 1 }"), "9:14", {"did you mean 'distance'?"}},
         Mistake{"substeps below zero", divided("{ energy = -1 }"), "9:23", {"energy", "positive"}},

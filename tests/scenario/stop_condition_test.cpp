@@ -187,7 +187,7 @@ INSTANTIATE_TEST_SUITE_P(
                 replaced(gas, "[[diagnoses]]\nkind = \"temperature\"\n", ""),
                 "14:8",
                 {"there are no [[diagnoses]]"}},
-        Mistake{"no rows", replaced(gas, "diagnoses = 20", "diagnoses = 0"), "14:8", {"asks for none"}},
+        Mistake{"no rows", replaced(gas, "diagnoses = 20", "diagnoses = 0"), "14:8", {"writes none"}},
         Mistake{"from the command line",
                 gas,
                 "--set run.stop='time > x'",

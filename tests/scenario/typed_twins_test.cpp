@@ -248,8 +248,8 @@ TEST(TypedTwins, AreOfAllLawsThatCanBeTyped) {
 
 /// The table for this dimension.
 std::string shown_table(std::string const& page, int dimension) {
-  auto heading = page.find(fmt::format("the same as a typed law, in {}D", dimension));
-  if (heading == std::string::npos) heading = page.find("the same as a typed law");
+  auto heading = page.find(fmt::format("the same as a formula law, in {}D", dimension));
+  if (heading == std::string::npos) heading = page.find("the same as a formula law");
   auto const from = page.find("    [[influences]]", heading);
   return heading == std::string::npos ? "" : page.substr(from, page.find("\n\n", from) - from) + "\n";
 }

@@ -112,7 +112,7 @@ TEST(VortexAdaptations, MistakesAreNamed) {
            {"ratio = 0.9", "ratio = 0.99", "ratio: 0.99 is out of range"},
            {"from = [0.45, 0]\n", "", "outflow has no 'from'; add e.g. from = [10, 0]"},
            {"direction = [1, 1]\n", "", "outflow has no 'direction'; add e.g. direction = [1, 0]"},
-           {"direction = [1, 1]", "direction = [0, 0]", "outflow: the direction is that of nothing"},
+           {"direction = [1, 1]", "direction = [0, 0]", "outflow: the direction is zero"},
            {"direction = [1, 1]", "direction = [1, 1]\nat = 3", "'at'"},
            {"above = 0.25\n", "", "split_cores has no 'above'; add e.g. above = 0.1"},
            {"class = \"Spreading\"", "class = \"Viscous\"",

@@ -173,7 +173,7 @@ TEST(BondedFactors, WhatCannotBeIsOneLine) {
   reversible.calculate();
   beads.resize(5);
   EXPECT_EQ(message([&] { reversible.calculate(); }),
-            "ensemble 'beads' had 4 particles when its bonded pairs were told, now it has 5");
+            "ensemble 'beads' had 4 particles when its bonded pairs were set, now it has 5");
 }
 
 }  // namespace

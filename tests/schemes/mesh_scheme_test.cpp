@@ -624,7 +624,7 @@ TEST(MeshEnergy, VirialIsTheChangeWithTheBox) {
   MeshScheme mesh(box_of(Vector{1.0}, Boundary::open), {8}, coulomb(1));
   mesh.add(charges);
   EXPECT_TRUE(std::isnan(mesh.measure().virial[0][0]));
-  EXPECT_EQ(mesh.measure().no_virial, "axis x is not periodic: the field of a mesh goes on behind its ends");
+  EXPECT_EQ(mesh.measure().no_virial, "axis x is not periodic: the field of a mesh continues beyond its ends");
 }
 
 // ---- bits ----

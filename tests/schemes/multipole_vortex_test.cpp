@@ -286,8 +286,8 @@ TEST(VorticesByMultipoles, RefuseWhatTheyCantDo) {
   EXPECT_NE(message([&] { flow.add(dust); }).find("has no vorticity: add it as test particles"), std::string::npos);
   EXPECT_NE(message([&] { flow.add_test_particles(vortices); }).find("has vorticity, which acts"), std::string::npos);
   EXPECT_NE(message([&] { field.add(dust); }).find("has neither strength nor mass"), std::string::npos);
-  EXPECT_NE(message([&] { flow.field_at<3>({Vector<3>{}}); }).find("ask for velocity_at()"), std::string::npos);
-  EXPECT_NE(message([&] { field.velocity_at<3>({Vector<3>{}}); }).find("ask for field_at()"), std::string::npos);
+  EXPECT_NE(message([&] { flow.field_at<3>({Vector<3>{}}); }).find("call velocity_at()"), std::string::npos);
+  EXPECT_NE(message([&] { field.velocity_at<3>({Vector<3>{}}); }).find("call field_at()"), std::string::npos);
   flow.add(vortices);
   vortices[1].core = -1;
   EXPECT_NE(message<PhysicsFailure>([&] { flow.calculate(); }).find("particle 1 of 'vortices' has a core below zero"),

@@ -77,7 +77,7 @@ TEST(SmoothMisuse, VariableRangesWantEnsemblesAndSums) {
   fill(gas, 8, 0.3);
   fill(late, 4, 0.3);
   SmoothScheme scheme(square_box());
-  EXPECT_TRUE(contains(message([&] { scheme.variable_range({}); }), "say what they are made of before"));
+  EXPECT_TRUE(contains(message([&] { scheme.variable_range({}); }), "set their materials before it"));
   scheme.material(gas, IdealGas{1.4});
   scheme.variable_range({});
   EXPECT_TRUE(contains(message([&] { scheme.material(late, IdealGas{1.4}); }), "after variable_range()"));

@@ -274,7 +274,7 @@ TEST(BarostatOfMolecules, RefusesInOneLine) {
   without.add(behind);
   without.integrate(charges, with_rigid_bonds(bonds, make_integrator(charges, Method::leap_frog)));
   EXPECT_EQ(message([&] { without.run(1); }),
-            "barostat: rigid bonds of which no scheme knows would be stretched; MoleculeScheme::keeps() tells one");
+            "barostat: rigid bonds that no scheme holds would be stretched; MoleculeScheme::keeps() registers one");
   MoleculeScheme molecules(box);
   molecules.keeps(bonds);
   Simulation with(pairs, 0.01);

@@ -114,11 +114,11 @@ TEST(Outflow, IsRefusedWhereItMeansNothing) {
   EXPECT_EQ(message([&] {
               Outflow(dye, box<2>(), {.from = {{1, 0, 0}}, .direction = {}});
             }),
-            "outflow: it has no direction; add e.g. direction = [1, 0]");
+            "outflow: the direction is missing; add e.g. direction = [1, 0]");
   EXPECT_EQ(message([&] {
               Outflow(dye, box<2>(), {.from = {{1, 0, 0}}, .direction = {{0, 0, 1}}});
             }),
-            "outflow: the direction is that of nothing, all its numbers are 0");
+            "outflow: the direction is zero; one of its numbers must differ from 0");
   Ensemble<Vortex<2>> wake("wake", 1), none("none");
   EXPECT_EQ(message([&] { Outflow(wake, box<2>(), plane, {.into = &wake}); }),
             "outflow: 'wake' can't leave into itself");

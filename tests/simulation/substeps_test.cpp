@@ -187,7 +187,7 @@ TEST(Substeps, WhatIsHeldDoesNotShortenThem) {
 TEST(Substeps, MistakesAreNamed) {
   Comet comet(step);
   EXPECT_EQ(message([&] { comet.simulation.divide_steps({}); }),
-            "substeps: nothing says how long they may be; give distance, energy or courant");
+            "substeps: no limit is set; give distance, energy or courant");
   EXPECT_EQ(message([&] { comet.simulation.divide_steps({.distance = -1}); }),
             "substeps: distance is -1; it must be positive");
   comet.simulation.divide_steps({.courant = 0.5});

@@ -125,7 +125,7 @@ TEST_F(GalleryTest, TellsParametersAsThePageWantsThem) {
   EXPECT_EQ(step.at("low"), 0);
   EXPECT_EQ(step.at("low_excluded"), true);
   EXPECT_TRUE(step.at("high").is_null());
-  EXPECT_TRUE(step.at("doc").get<std::string>().starts_with("of each step"));
+  EXPECT_TRUE(step.at("doc").get<std::string>().starts_with("time step"));
   // Keys that its tables could have, too: once each, and none that is there.
   std::set<std::string> paths;
   for (auto const& one : reply.at("parameters")) EXPECT_TRUE(paths.insert(one.at("path")).second);
@@ -133,7 +133,7 @@ TEST_F(GalleryTest, TellsParametersAsThePageWantsThem) {
   json const skin = find(reply.at("absent"), "path", "run.skin");
   ASSERT_FALSE(skin.is_null());
   EXPECT_EQ(skin.at("value"), "");
-  EXPECT_EQ(skin.at("otherwise"), "chosen for you");
+  EXPECT_EQ(skin.at("otherwise"), "automatic");
   EXPECT_EQ(skin.at("units")[0], "angstrom");
   // One with a mistake still has its text.
   put("wrong.toml", small("w") + "[output]\ntrajectroy = 1\n");

@@ -49,10 +49,9 @@ CylinderFlow::CylinderFlow(Box box, CylinderOptions const& options) : Scheme(std
                             this->box().dimension(), this->box().dimension() == 1 ? "" : "s"));
   for (int a = 0; a < 2; ++a)
     if (this->box().boundary(a) != Boundary::open)
-      throw Error(
-          fmt::format("cylinder: axis {} is {}, where images would have images; it stands in open space: "
-                      "boundary = \"open\"",
-                      "xy"[a], to_string(this->box().boundary(a))));
+      throw Error(fmt::format(
+          "cylinder: axis {} is {}, where images would have images; the cylinder needs open space: boundary = \"open\"",
+          "xy"[a], to_string(this->box().boundary(a))));
   if (!(options.radius > 0 && std::isfinite(options.radius)))
     throw Error(fmt::format("cylinder: the radius is a positive length, not {}", options.radius));
   for (double const x :

@@ -17,8 +17,8 @@ Words<MetalPotential> const& metal_potential_words() {
         "V = epsilon (a/r)^n, rho = (a/r)^m, F = -c epsilon sqrt(rho) (Sutton and Chen 1990)"},
        {MetalPotential::gupta, "gupta",
         "V = 2 A exp(-p (r/r0 - 1)), rho = xi^2 exp(-2 q (r/r0 - 1)), F = -sqrt(rho) (Cleri and Rosato 1993)"},
-       {MetalPotential::formulas, "formulas", "V, rho and F as they are typed"},
-       {MetalPotential::file, "file", "the tables of a file: setfl (eam.alloy, eam.fs) or funcfl"}}};
+       {MetalPotential::formulas, "formulas", "V, rho and F as formulas"},
+       {MetalPotential::file, "file", "tables of a file: setfl (eam.alloy, eam.fs) or funcfl"}}};
   return all;
 }
 
@@ -32,52 +32,45 @@ OptionTable const& embedded_atom_options() {  // long: a table, a row for each k
       all.add(key, of, member, number(dimension, positive), doc);
       all.at(key).needed = example;
     };
-    all.add(
-        "potential", &E::potential, metal_potential_words(),
-        "what pairs, densities and atoms in densities have as energies: of Sutton and Chen, of Gupta, as typed, or a "
-        "file's");
+    all.add("potential", &E::potential, metal_potential_words(),
+            "energies of pairs, densities and embedding: Sutton and Chen, Gupta, formulas or a file");
     all.at("potential").needed = "\"sutton-chen\"";
-    all.add_said("on", ensembles(), "the atoms", "all that a force moves");
-    all.add_said("elements", "a table, { atoms = \"Cu\" }", "of a file with several: the element of each ensemble",
+    all.add_said("on", ensembles(), "the atoms", "all moved by forces");
+    all.add_said("elements", "a table, { atoms = \"Cu\" }", "element of each ensemble, for a file with several",
                  "the ensemble's name");
     all.add("file", &E::file, path(),
-            "of `\"file\"`, from the scenario's folder: tables in eV and angstrom: setfl (eam.alloy, eam.fs) or "
+            "`\"file\"`: path, relative to the scenario; tables in eV and angstrom: setfl (eam.alloy, eam.fs) or "
             "funcfl, also compressed by gzip");
     all.at("file").needed = "\"Cu.eam.alloy\"";
     add("epsilon", &E::sutton_chen, &SuttonChen::epsilon, dimensions::energy,
-        "of `\"sutton-chen\"`: the energy of pairs a apart", "\"12.382 meV\"");
-    add("a", &E::sutton_chen, &SuttonChen::a, dimensions::length, "of `\"sutton-chen\"`: the lattice constant",
+        "`\"sutton-chen\"`: epsilon, the energy of a pair at distance a", "\"12.382 meV\"");
+    add("a", &E::sutton_chen, &SuttonChen::a, dimensions::length, "`\"sutton-chen\"`: lattice constant a",
         "\"3.61 angstrom\"");
-    add("n", &E::sutton_chen, &SuttonChen::n, dimensions::none, "of `\"sutton-chen\"`: how fast pair energies fall",
-        "9");
-    add("m", &E::sutton_chen, &SuttonChen::m, dimensions::none, "of `\"sutton-chen\"`: how fast densities fall", "6");
-    add("c", &E::sutton_chen, &SuttonChen::c, dimensions::none, "of `\"sutton-chen\"`: how strongly densities bind",
+    add("n", &E::sutton_chen, &SuttonChen::n, dimensions::none, "`\"sutton-chen\"`: exponent n of pair energies", "9");
+    add("m", &E::sutton_chen, &SuttonChen::m, dimensions::none, "`\"sutton-chen\"`: exponent m of densities", "6");
+    add("c", &E::sutton_chen, &SuttonChen::c, dimensions::none, "`\"sutton-chen\"`: strength c of the embedding",
         "39.432");
-    add("A", &E::gupta, &Gupta::A, dimensions::energy, "of `\"gupta\"`: half the energy of pairs r0 apart",
-        "\"85.5 meV\"");
-    add("xi", &E::gupta, &Gupta::xi, dimensions::energy, "of `\"gupta\"`: the root of the density at r0",
+    add("A", &E::gupta, &Gupta::A, dimensions::energy, "`\"gupta\"`: half the energy of a pair at r0", "\"85.5 meV\"");
+    add("xi", &E::gupta, &Gupta::xi, dimensions::energy, "`\"gupta\"`: square root of the density at r0",
         "\"1.224 eV\"");
-    add("p", &E::gupta, &Gupta::p, dimensions::none, "of `\"gupta\"`: how fast pair energies fall", "10.96");
-    add("q", &E::gupta, &Gupta::q, dimensions::none, "of `\"gupta\"`: how fast the roots of densities fall", "2.278");
-    add("r0", &E::gupta, &Gupta::r0, dimensions::length, "of `\"gupta\"`: the distance of neighbours",
-        "\"2.556 angstrom\"");
-    all.add_said("pair", text("a formula of r"), "of `\"formulas\"`: the energy V of a pair");
-    all.add_said("density", text("a formula of r"),
-                 "of `\"formulas\"`: the density rho that an atom makes, a pure number");
-    all.add_said("embedding", text("a formula of rho"), "of `\"formulas\"`: the energy F of an atom in a density");
-    all.add_said("parameters", "a table, { xi = \"1.2 eV\" }", "of `\"formulas\"`: what they may use", "none");
+    add("p", &E::gupta, &Gupta::p, dimensions::none, "`\"gupta\"`: decay p of pair energies", "10.96");
+    add("q", &E::gupta, &Gupta::q, dimensions::none, "`\"gupta\"`: decay q of the square roots of densities", "2.278");
+    add("r0", &E::gupta, &Gupta::r0, dimensions::length, "`\"gupta\"`: distance of neighbours", "\"2.556 angstrom\"");
+    all.add_said("pair", text("a formula of r"), "`\"formulas\"`: energy V of a pair");
+    all.add_said("density", text("a formula of r"), "`\"formulas\"`: density rho of an atom, a pure number");
+    all.add_said("embedding", text("a formula of rho"), "`\"formulas\"`: energy F of an atom in a density");
+    all.add_said("parameters", "a table, { xi = \"1.2 eV\" }", "`\"formulas\"`: constants", "none");
     all.at("pair").needed = "\"A*exp(-p*(r/r0 - 1))\"";
     all.at("density").needed = "\"exp(-2*q*(r/r0 - 1))\"";
     all.at("embedding").needed = "\"-xi*sqrt(rho)\"";
     all.add("cutoff", &E::cutoff, number(dimensions::length, positive),
-            "where pair energies and densities end; a file says so itself");
+            "cut-off of pair energies and densities; a file has its own");
     all.at("cutoff").needed = "\"7.2 angstrom\"";
     all.add("switch_from", &E::from, number(dimensions::length, positive),
-            "from here to the cut-off both are multiplied by a factor that falls from 1 to 0 with three continuous "
-            "derivatives",
+            "start of the smooth step, with three continuous derivatives, that ends at the cut-off",
             "0.9 of the cut-off");
-    all.add("skin", &E::skin, number(dimensions::length, not_negative),
-            "how far atoms move before lists are rebuilt: lists reach cutoff + skin", "0.12 of the cut-off");
+    all.add("skin", &E::skin, number(dimensions::length, not_negative), "reach of neighbour lists beyond the cut-off",
+            "0.12 of the cut-off");
     return all;
   }();
   return all;
@@ -123,26 +116,26 @@ OptionTable const& stillinger_weber_options() {
     OptionTable all;
     auto const add = [&](char const* key, auto member, OptionKind const& kind, char const* doc,
                          char const* otherwise = "") { all.add(key, &S::law, member, kind, doc, otherwise); };
-    all.add_said("on", ensembles(), "the atoms", "all that a force moves");
+    all.add_said("on", ensembles(), "the atoms", "all moved by forces");
     add("epsilon", &StillingerWeber::epsilon, number(dimensions::energy, positive),
-        "the depth of a pair's energy; of silicon `\"2.1683 eV\"`");
+        "depth epsilon of a pair's energy; silicon: `\"2.1683 eV\"`");
     add("sigma", &StillingerWeber::sigma, number(dimensions::length, positive),
-        "its length: 0.8909 of the distance of neighbours; of silicon `\"2.0951 angstrom\"`");
+        "length sigma, 0.8909 of the distance of neighbours; silicon: `\"2.0951 angstrom\"`");
     all.at("epsilon").needed = "\"2.1683 eV\"";
     all.at("sigma").needed = "\"2.0951 angstrom\"";
     add("A", &StillingerWeber::A, number(dimensions::none, not_negative),
-        "of pairs: epsilon A (B (sigma/r)^p - (sigma/r)^q) exp(1/(r/sigma - a))");
-    add("B", &StillingerWeber::B, number(dimensions::none, not_negative), "as above: of what repels");
-    add("p", &StillingerWeber::p, whole(0, 24), "as above: how fast what repels falls");
-    add("q", &StillingerWeber::q, whole(0, 24), "as above: how fast what attracts falls");
-    add("a", &StillingerWeber::a, number(dimensions::none, positive), "the cut-off of pairs and bonds, in sigma");
+        "pair energy epsilon A (B (sigma/r)^p - (sigma/r)^q) exp(1/(r/sigma - a))");
+    add("B", &StillingerWeber::B, number(dimensions::none, not_negative), "factor of the repulsion in it");
+    add("p", &StillingerWeber::p, whole(0, 24), "exponent of the repulsion");
+    add("q", &StillingerWeber::q, whole(0, 24), "exponent of the attraction");
+    add("a", &StillingerWeber::a, number(dimensions::none, positive), "cut-off of pairs and bonds, in sigma");
     add("lambda", &StillingerWeber::lambda, number(dimensions::none, not_negative),
-        "the strength of angles: lambda epsilon g(r_ij) g(r_ik) (cos theta - cosine)^2, g = exp(gamma/(r/sigma - a))");
-    add("gamma", &StillingerWeber::gamma, number(dimensions::none, positive), "as above: how far bonds reach");
+        "strength of angles: lambda epsilon g(r_ij) g(r_ik) (cos theta - cosine)^2, g = exp(gamma/(r/sigma - a))");
+    add("gamma", &StillingerWeber::gamma, number(dimensions::none, positive), "range of g");
     add("cosine", &StillingerWeber::cosine, number(dimensions::none, {-1, 1, false}),
-        "as above: of the angle without energy", "-1/3, that of a tetrahedron");
-    all.add("skin", &S::skin, number(dimensions::length, not_negative),
-            "how far atoms move before lists are rebuilt: lists reach cut-off + skin", "0.12 of the cut-off");
+        "cosine of the angle without energy", "-1/3, the tetrahedral angle");
+    all.add("skin", &S::skin, number(dimensions::length, not_negative), "reach of neighbour lists beyond the cut-off",
+            "0.12 of the cut-off");
     return all;
   }();
   return all;

@@ -13,21 +13,21 @@ OptionTable make_mesh_options() {
   using M = MeshOptions;
   OptionTable all;
   add_field_keys(all);
-  all.add("cells", &M::cells, wholes_by_axis(1, 1e9), "of the mesh", "needed, but with `accuracy`");
-  all.add("assignment", &M::assignment, assignment_words(), "how particles are spread over nodes");
-  all.add("poisson", &M::poisson, poisson_form_words(), "Poisson's equation on the mesh");
+  all.add("cells", &M::cells, wholes_by_axis(1, 1e9), "cells of the mesh", "needed without `accuracy`");
+  all.add("assignment", &M::assignment, assignment_words(), "distribution of particles over nodes");
+  all.add("poisson", &M::poisson, poisson_form_words(), "form of Poisson's equation on the mesh");
   all.add_said("boundary", join(field_boundary_words().names()) + "; a word, or for each axis a word or a pair",
-               "of the field", "periodic where the box is, elsewhere open");
-  all.add("background", &M::background, flag(), "a uniform background makes the whole neutral");
-  all.add("precision", &M::precision, precision_words(), "of the particles during a run");
+               "boundary of the field", "periodic as the box, else open");
+  all.add("background", &M::background, flag(), "a uniform background neutralises the whole");
+  all.add("precision", &M::precision, precision_words(), "precision of particles during a run");
   all.add("accuracy", &M::accuracy, number(dimensions::none, positive),
-          "P3M: mesh plus near pairs, forces to this part of their rms; `cells`, `assignment`, `poisson`, `boundary` "
-          "and `precision` are then chosen for you",
+          "P3M (mesh plus near pairs): force error relative to their rms; sets `cells`, `assignment`, `poisson`, "
+          "`boundary` and `precision`",
           "a mesh alone");
   all.add("bonded_factors", &M::bonded_factors, numbers(dimensions::none),
-          "with `accuracy`: of charges 1, 2, 3, ... bonds apart (`bonds` of `[[ensembles]]`), `[0, 0, 0.5]`; 0: they "
-          "don't act on each other",
-          "1: as all others");
+          "with `accuracy`: factors of charges 1, 2, 3, ... bonds apart (`bonds` of `[[ensembles]]`), `[0, 0, 0.5]`; 0 "
+          "excludes them",
+          "1, as others");
   return all;
 }
 

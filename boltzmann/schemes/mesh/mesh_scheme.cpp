@@ -68,7 +68,7 @@ MeshScheme::MeshScheme(Box box, std::vector<std::size_t> cells, LaplaceLaw const
   if (law.softening != 0)
     throw Error(
         fmt::format("mesh: the law has a softening of {}; a mesh smooths by its cells, so leave it 0", law.softening));
-  if (law.constant == 0) throw Error("mesh: the constant of the law is 0: nobody would feel anything");
+  if (law.constant == 0) throw Error("mesh: the constant of the law is 0: no particle would feel a force");
   if (!box.regions().empty())
     throw Error(
         "mesh: the box has regions; a field with walls inside the box is beyond a mesh solved by Fourier "
@@ -123,8 +123,7 @@ void MeshScheme::boundary(int axis, FieldBoundary low, FieldBoundary high) {
 }
 
 void MeshScheme::refuse_choice(char const* what) const {
-  if (chosen_by_accuracy_)
-    throw Error(fmt::format("mesh: the {} of P3M is chosen for the accuracy that was asked for", what));
+  if (chosen_by_accuracy_) throw Error(fmt::format("mesh: the {} of P3M is set by its accuracy", what));
 }
 
 void MeshScheme::assignment(int order) {
@@ -361,7 +360,7 @@ void MeshScheme::add_virial(MeshField const&, MeshField const&, MeshField const&
   for (int a = 0; a < D; ++a)
     if (!box().periodic(a))
       measures.no_virial =
-          fmt::format("axis {} is not periodic: the field of a mesh goes on behind its ends", "xyz"[a]);
+          fmt::format("axis {} is not periodic: the field of a mesh continues beyond its ends", "xyz"[a]);
   if (!measures.no_virial.empty()) return;
   std::array<ExactSum, 9> sums;
   add_terms(sums, field.grid.size(), threads(), [&](std::size_t i, std::array<double, 9>& terms) {

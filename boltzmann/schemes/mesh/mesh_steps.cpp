@@ -141,7 +141,7 @@ class MeshSteps final : public FusedSteps {
     int const cells = static_cast<int>(std::ceil(std::log2(largest)));
     bits_ = std::is_same_v<Real, double> ? 49 - cells - static_cast<int>(std::ceil(std::log2(furthest))) : 29 - cells;
     if constexpr (std::is_same_v<Real, float>) bits_ = std::min(bits_, 24);
-    if (bits_ < 8) throw Error("mesh: single precision has too few bits for so many cells; take precision full");
+    if (bits_ < 8) throw Error("mesh: single precision has too few bits for this many cells; set precision = \"full\"");
     for (int a = 0; a < dimension_; ++a) {
       part_[a] = work_.grid.spacing[a] / std::exp2(bits_);
       end_[a] = static_cast<Fixed>(work_.ghosts.cells(a)) << bits_;

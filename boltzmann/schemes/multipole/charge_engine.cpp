@@ -102,7 +102,7 @@ class ChargeEngine final : public EngineOf<Charges<D>> {
       measures.no_virial =
           "multipoles in a periodic box don't have it (P3M does); in 3D, unsoftened, its trace is the potential energy";
     else if (!reaction)
-      measures.no_virial = "test particles feel forces that nobody feels in return";
+      measures.no_virial = "test particles feel forces without exerting any";
     else
       for (std::size_t a = 0; a < D; ++a)
         for (std::size_t b = 0; b < D; ++b) measures.virial[a][b] = virial[a][b].value();
@@ -120,7 +120,7 @@ class ChargeEngine final : public EngineOf<Charges<D>> {
 
 std::unique_ptr<MultipoleEngine> multipole_engine(LaplaceLaw const& law, Box const& box) {
   law.check();
-  if (law.constant == 0) throw Error("multipoles: the constant of the law is 0: nobody would feel anything");
+  if (law.constant == 0) throw Error("multipoles: the constant of the law is 0: no particle would feel a force");
   if (box.dimension() == 2) return std::make_unique<ChargeEngine<2>>(law, box);
   return std::make_unique<ChargeEngine<3>>(law, box);
 }

@@ -72,7 +72,7 @@ void add_blocks(Exchange const& exchange, int n, std::vector<double>& swap) {
 ExpansionTables::ExpansionTables(int dimension, int order)
     : order_(order), size_((expansion_numbers(dimension, order) + 3) / 4 * 4) {
   if (dimension < 2 || dimension > 3)
-    throw Error(fmt::format("multipoles: {} dimensions; there are expansions in 2 and 3", dimension));
+    throw Error(fmt::format("multipoles: {} dimensions; expansions exist in 2 and 3", dimension));
   if (order < 1 || order > highest_expansion_order)
     throw Error(
         fmt::format("multipoles: an expansion of order {}; allowed are 1 to {}", order, highest_expansion_order));

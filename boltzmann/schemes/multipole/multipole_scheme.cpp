@@ -51,8 +51,8 @@ void check_box(Box const& box, bool of_vortices) {
   for (int a = 0; a < box.dimension(); ++a)
     if (box.boundary(a) == Boundary::mirror && !of_vortices)
       throw Error(
-          fmt::format("multipoles: axis {} is mirror; there are fields of open and of periodic axes (a mesh "
-                      "has them between walls, and flows of vortices go along mirrors)",
+          fmt::format("multipoles: axis {} is mirror; fields of multipoles need open or periodic axes (use [mesh] "
+                      "between walls; flows of vortices may have mirrors)",
                       "xyz"[a]));
   if (!box.regions().empty()) throw Error("multipoles: the box has regions, which the field would not feel");
   if (of_vortices) check_walls_of_flow(box, "multipoles");
@@ -83,8 +83,8 @@ void MultipoleScheme::background(bool yes) {
   for (int a = 0; yes && a < box().dimension(); ++a)
     if (!box().periodic(a))
       throw Error(
-          fmt::format("multipoles: a uniform background is for a box that is periodic along all axes, and axis "
-                      "{} is open; without it strengths need not cancel: leave it out",
+          fmt::format("multipoles: a uniform background is for a box that is periodic along all axes, and axis {} is "
+                      "open; leave it out: here strengths need not cancel",
                       "xyz"[a]));
   if (yes && !law_ && box().dimension() == 3)
     throw Error(
@@ -301,7 +301,7 @@ void MultipoleScheme::calculate_at(std::vector<Vector<D>> const& places) {
 
 template <int D>
 std::vector<MultipoleScheme::FieldAt<D>> MultipoleScheme::field_at(std::vector<Vector<D>> const& places) {
-  if (!law_) throw Error("multipoles: vortices make a flow, not a field: ask for velocity_at()");
+  if (!law_) throw Error("multipoles: vortices make a flow, not a field: call velocity_at()");
   Look const look(*this);
   calculate_at(places);
   std::size_t const from = engine_->count() - places.size();
@@ -319,7 +319,7 @@ template std::vector<MultipoleScheme::FieldAt<3>> MultipoleScheme::field_at(std:
 
 template <int D>
 std::vector<Vector<D>> MultipoleScheme::velocity_at(std::vector<Vector<D>> const& places) {
-  if (law_) throw Error("multipoles: charges and masses make a field, not a flow: ask for field_at()");
+  if (law_) throw Error("multipoles: charges and masses make a field, not a flow: call field_at()");
   Look const look(*this);
   calculate_at(places);
   std::size_t const width = engine_->width(), from = engine_->count() - places.size();

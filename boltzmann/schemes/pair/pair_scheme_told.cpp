@@ -148,14 +148,13 @@ void PairScheme::warn_of_typed(Near const& near, std::vector<std::string>& lines
                                 ? fmt::format("within '{}'", near.target->name())
                                 : fmt::format("of '{}' on '{}'", near.source->name(), near.target->name());
   if (sample.not_finite_at > 0)
-    lines.push_back(fmt::format("warning: the typed law {} is no finite number at a distance of {}{}", whose,
+    lines.push_back(fmt::format("warning: the formula law {} is not finite at a distance of {}{}", whose,
                                 length(sample.not_finite_at),
                                 near.all_pairs() ? "" : fmt::format(", within its cut-off {}", length(near.cutoff))));
   else if (!near.all_pairs() && sample.left_at_reach > most_left_at_cutoff)
     lines.push_back(
-        fmt::format("warning: the typed law {} jumps at its cut-off {}: {:.0f} % of its greatest influence "
-                    "between neighbours is left there; take a longer one, or at_cutoff = \"shift\" or "
-                    "\"switch\"",
+        fmt::format("warning: the formula law {} jumps at its cut-off {}: {:.0f} % of its greatest influence between "
+                    "neighbours is left there; take a longer one, or at_cutoff = \"shift\" or \"switch\"",
                     whose, length(near.cutoff), 100 * sample.left_at_reach));
 }
 

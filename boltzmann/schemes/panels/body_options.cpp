@@ -9,9 +9,9 @@ Words<BodyShape> const& body_shape_words() {
   static Words<BodyShape> const all{"shape",
                                     {{BodyShape::circle, "circle", "`radius` around `centre`"},
                                      {BodyShape::ellipse, "ellipse", "`semi_axes` around `centre`, turned by `angle`"},
-                                     {BodyShape::naca, "naca", "an aerofoil of four digits"},
+                                     {BodyShape::naca, "naca", "four-digit NACA aerofoil"},
                                      {BodyShape::polygon, "polygon", "through `points`"},
-                                     {BodyShape::file, "file", "a polygon through the points of a file"}}};
+                                     {BodyShape::file, "file", "a polygon from a file"}}};
   return all;
 }
 
@@ -20,44 +20,35 @@ OptionTable const& body_options() {
   using B = BodyOptions;
   static OptionTable const all = [] {
     OptionTable all;
-    all.add("name", &B::name, text(),
-            "for the rest of the file, the columns and the legends: the body's panels are an "
-            "ensemble of this name");
-    all.add(
-        "shape", &B::shape, body_shape_words(),
-        "a circle, an ellipse, an aerofoil of NACA's four digits with a closed trailing edge, a polygon, also from a "
-        "file");
+    all.add("name", &B::name, text(), "name of the ensemble of the body's panels, in tables, columns and legends");
+    all.add("shape", &B::shape, body_shape_words(),
+            "circle, ellipse, four-digit NACA aerofoil with a closed trailing edge, or polygon, also from a file");
     all.add("centre", &B::centre, vector(dimensions::length),
-            "of a circle or ellipse; of an aerofoil the quarter of its chord; of a file its origin", "the origin");
-    all.add("radius", &B::radius, number(dimensions::length, positive), "of a circle");
-    all.add("semi_axes", &B::semi_axes, vector(dimensions::length), "of an ellipse, along x and y before it is turned");
+            "centre of a circle or ellipse, quarter chord of an aerofoil, origin of a file", "the origin");
+    all.add("radius", &B::radius, number(dimensions::length, positive), "radius of a circle");
+    all.add("semi_axes", &B::semi_axes, vector(dimensions::length),
+            "semi-axes of an ellipse, along x and y before it is turned");
     all.add("naca", &B::naca, text(),
-            "four digits: camber and its place, per cent and tenths of the chord; thickness, per "
-            "cent");
-    all.add("chord", &B::chord, number(dimensions::length, positive), "of an aerofoil");
+            "digits of an aerofoil: camber (% of the chord), its place (tenths) and thickness (%)");
+    all.add("chord", &B::chord, number(dimensions::length, positive), "chord of an aerofoil");
     all.add("angle", &B::angle, degrees(),
-            "of an ellipse or a file's shape counterclockwise; of an aerofoil that of attack, which lifts its nose");
-    all.add("points", &B::points, numbers(dimensions::length), "corners of a polygon, pairs, either way around");
+            "counterclockwise turn of an ellipse or file; angle of attack of an aerofoil, nose up");
+    all.add("points", &B::points, numbers(dimensions::length), "corners of a polygon in either direction");
     all.add("path", &B::path, path(),
-            "of a file, from the scenario's folder: x and y of one corner a line, either way around");
-    all.add("length", &B::length, number(dimensions::length, positive), "the file's unit of length", "the base's");
-    all.add("panels", &B::panels, whole(3, 2000),
-            "how many pieces the outline is cut into; 2000 of all bodies at most");
+            "path, relative to the scenario: x and y of one corner per line, in either direction");
+    all.add("length", &B::length, number(dimensions::length, positive), "unit of length in the file", "the base unit");
+    all.add("panels", &B::panels, whole(3, 2000), "panels of the outline; at most 2000 for all bodies");
     all.add("circulation", &B::sheet, &BodySheet::circulation, number(dimensions::circulation),
-            "of the body's vortex sheet, counterclockwise");
-    all.add(
-        "kutta", &B::sheet, &BodySheet::kutta, flag(),
-        "the flow leaves the trailing edge smoothly, which gives the circulation; of a polygon, also from a file, its "
-        "first point is that "
-        "edge");
-    all.add(
-        "no_slip", &B::no_slip, text(),
-        "the ensemble that the vorticity enters which a wall makes where fluid sticks to it; class `Diffusive` with a "
-        "viscosity",
-        "the fluid slips");
-    all.add("colour", &B::appearance, &Appearance::colour, text(), "in pictures, as of an ensemble", "chosen for you");
+            "circulation of the body's vortex sheet, counterclockwise");
+    all.add("kutta", &B::sheet, &BodySheet::kutta, flag(),
+            "the flow leaves the trailing edge smoothly, which sets the circulation; for polygons the edge is the "
+            "first point");
+    all.add("no_slip", &B::no_slip, text(),
+            "ensemble of the vortices that a no-slip wall sheds; class `Diffusive` with a viscosity",
+            "the fluid slips");
+    all.add("colour", &B::appearance, &Appearance::colour, text(), "colour in pictures", "automatic");
     all.add("diameter", &B::appearance, &Appearance::diameter, number(dimensions::length, not_negative),
-            "of panels in pictures", "their length");
+            "width of panels in pictures", "their length");
     all.at("name").needed = "\"cylinder\"";
     all.at("shape").needed = "\"circle\"";
     all.at("radius").needed = "1";

@@ -58,7 +58,7 @@ void PanelScheme::find_sheet() {
       double const *row = body->row(i), *velocity = body->influence(i);
       auto const& panel = sheet_.panels()[at];
       if (!(magnitude(Vector<2>{row[0], row[1]} - panel.middle()) <= 1e-6 * panel.length))
-        throw PhysicsFailure(fmt::format("panel {} of '{}' has moved; bodies stand still", i, body->name()));
+        throw PhysicsFailure(fmt::format("panel {} of '{}' has moved; bodies must not move", i, body->name()));
       auto const normal = panel.normal();
       normal_velocity_[at] = velocity[0] * normal[0] + velocity[1] * normal[1];
       if (!std::isfinite(normal_velocity_[at]))

@@ -149,8 +149,8 @@ void SmoothScheme::add_material(AnyEnsemble& ensemble, MaterialKernels const& ke
     throw Error(fmt::format("ensemble '{}' is made of something already: one material each", ensemble.name()));
   if (variable_)
     throw Error(
-        fmt::format("ensemble '{}' comes after variable_range(), which finds the ranges of those that are "
-                    "there: say what all are made of before",
+        fmt::format("ensemble '{}' was added after variable_range(), which computes the ranges of existing particles: "
+                    "set all materials before it",
                     ensemble.name()));
   add(ensemble);
   loaded_.push_back(std::make_unique<Loaded>(Loaded{&ensemble, kernels, std::move(material), 0, {}, {}}));
@@ -311,7 +311,8 @@ void SmoothScheme::prepare(bool keep_lists) {
   if (!hood_) {
     check_heating();
     Recipe const recipe = this->recipe();
-    std::size_t const further = recipe.solids      ? transport_blocks(dimension) + matter_blocks(dimension) + solid_blocks(dimension)
+    std::size_t const further = recipe.solids
+                                    ? transport_blocks(dimension) + matter_blocks(dimension) + solid_blocks(dimension)
                                 : recipe.gradients ? transport_blocks(dimension) + matter_blocks(dimension)
                                 : recipe.transport ? transport_blocks(dimension)
                                                    : 0;

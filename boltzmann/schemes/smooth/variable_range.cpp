@@ -48,7 +48,7 @@ void SmoothScheme::variable_range(VariableRange const& variable) {
   check_parameter("variable range", "longest", variable.longest, not_negative);
   if (density_from_ != DensityFrom::summation)
     throw Error("ranges follow densities that are summed; with densities from continuity they stay");
-  if (loaded_.empty()) throw Error("variable_range() finds the ranges of particles: say what they are made of before");
+  if (loaded_.empty()) throw Error("variable_range() computes the ranges of particles: set their materials before it");
   take_places();
   variable_ = variable;
   if (variable.longest == 0) variable_->longest = 4 * longest_;
@@ -69,8 +69,8 @@ void SmoothScheme::variable_range(VariableRange const& variable) {
     if (largest_change < precision) break;
     if (iteration == max_iterations)
       throw Error(
-          fmt::format("variable range: there are no ranges of {:.6g} spacings (after {} iterations they still change "
-                      "by {:.1e}); with this weight it takes more than {:.3g}, 3 are usual",
+          fmt::format("variable range: no ranges of {:.6g} spacings exist (after {} iterations they still change by "
+                      "{:.1e}); this weight needs more than {:.3g}, 3 are usual",
                       variable.spacings, max_iterations, largest_change,
                       std::pow(loaded_.front()->task.self, 1.0 / box().dimension())));
   }

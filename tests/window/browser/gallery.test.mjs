@@ -139,7 +139,7 @@ test("keys that a table could have, too, are folded away; one is set, checked, s
   // What it means, what it may be, and what holds without it.
   await more("run").locator("summary").click();
   assert.equal(await input(page, "run.skin").inputValue(), "");
-  assert.equal(await input(page, "run.skin").getAttribute("placeholder"), "chosen for you");
+  assert.equal(await input(page, "run.skin").getAttribute("placeholder"), "automatic");
   assert.match(await field(page, "run.skin").locator(".gallery-hint").textContent(), /neighbour lists.* · at least 0 · in angstrom/);
   assert.match(await field(page, "run.cutoff").locator(".gallery-hint").textContent(), /^3 r0 · distance beyond which/); // the comment first
   assert.match(await page.textContent("#gallery-state"), /as it stands/);

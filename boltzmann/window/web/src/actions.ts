@@ -46,7 +46,7 @@ export function makeActions(session: Session, panes: Panes, parts: Parts): Actio
   const state = () => session.update?.state;
   const ended = () => linked() || (state() === "ended" ? "the simulation has ended" : "");
   const able = () =>
-    ended() || (state() === "failed" ? "the physics has failed, as the line below the panes says" : "");
+    ended() || (state() === "failed" ? "the physics has failed; see the line below the panes" : "");
   const can = (what: "rewind" | "checkpoint" | "quit") => () => linked() || (session.hello?.can[what] ?? "");
   // A key that is held repeats faster than a window may answer: pending repeats are sent with the next message.
   let owed = 0;
@@ -82,12 +82,12 @@ export function makeActions(session: Session, panes: Panes, parts: Parts): Actio
     {
       id: "toggle",
       words: "Play or stop",
-      help: "go on, or stand still",
+      help: "continue or pause",
       keys: [" "],
       why: ended,
       run: () => say(state() === "playing" || state() === "rewinding" ? "stop" : "play"),
     },
-    { id: "play", words: "Play", help: "go on from here", keys: [], icon: "play", why: able, run: () => say("play") },
+    { id: "play", words: "Play", help: "continue from here", keys: [], icon: "play", why: able, run: () => say("play") },
     {
       id: "step",
       words: "Step",
@@ -106,11 +106,11 @@ export function makeActions(session: Session, panes: Panes, parts: Parts): Actio
       why: () => able() || can("rewind")(),
       run: () => say("rewind"),
     },
-    { id: "stop", words: "Stop", help: "stand still", keys: [], icon: "stop", why: ended, run: () => say("stop") },
+    { id: "stop", words: "Stop", help: "pause", keys: [], icon: "stop", why: ended, run: () => say("stop") },
     {
       id: "quit",
       words: "Quit",
-      help: "end the simulation (asks first)",
+      help: "end the simulation, after a confirmation",
       keys: ["q"],
       icon: "quit",
       why: can("quit"),
@@ -161,7 +161,7 @@ export function makeActions(session: Session, panes: Panes, parts: Parts): Actio
     {
       id: "diagnosis",
       words: "Next diagnosis",
-      help: "another diagnosis in this pane (shift: the one before)",
+      help: "next diagnosis in this pane (shift: previous)",
       keys: ["d", "D"],
       run: (key) => {
         const names = session.hello?.diagnoses.map(({ name }) => name) ?? [];
@@ -171,17 +171,17 @@ export function makeActions(session: Session, panes: Panes, parts: Parts): Actio
     {
       id: "add",
       words: "Add a pane",
-      help: "one more diagnosis beside the others, six at most",
+      help: "show one more diagnosis, six at most",
       keys: ["a"],
-      why: () => (panes.list.length < most_panes ? "" : `${most_panes} panes are the most`),
+      why: () => (panes.list.length < most_panes ? "" : `at most ${most_panes} panes`),
       run: () => panes.add(),
     },
     {
       id: "remove",
-      words: "Take the pane away",
+      words: "Close the pane",
       help: "the active one",
       keys: ["x"],
-      why: () => (panes.list.length > 1 ? "" : "the last pane stays"),
+      why: () => (panes.list.length > 1 ? "" : "the last pane can't be closed"),
       run: () => panes.remove(),
     },
     {
@@ -200,14 +200,14 @@ export function makeActions(session: Session, panes: Panes, parts: Parts): Actio
     {
       id: "whole",
       words: "Whole view",
-      help: "no zoom, the camera as at first",
+      help: "reset zoom and camera",
       keys: ["Home"],
       run: () => panes.active.reset(),
     },
     {
       id: "track",
       words: "Track",
-      help: "keep what was drawn, unerased",
+      help: "draw tracks: keep earlier frames",
       keys: ["t"],
       run: () => session.choose({ tracking: !session.tracking }),
     },
@@ -222,14 +222,14 @@ export function makeActions(session: Session, panes: Panes, parts: Parts): Actio
     {
       id: "picture",
       words: "Save a picture",
-      help: "as the panel says: PNG, SVG or PDF",
+      help: "in the format of the panel: PNG, SVG or PDF",
       keys: ["g"],
       run: () => void savePicture(session, panes.active),
     },
     {
       id: "movie",
       words: "Record a movie",
-      help: "of the active pane; again: end it and save it",
+      help: "record the active pane; again: stop and save",
       keys: ["m"],
       run: () => panes.active.record(),
     },
@@ -247,13 +247,13 @@ export function makeActions(session: Session, panes: Panes, parts: Parts): Actio
     {
       id: "theme",
       words: "Theme",
-      help: "light, dark, as the system has it",
+      help: "light, dark, or that of the system",
       keys: ["l"],
       run: () => {
         session.choose({ theme: after<Theme>(["light", "dark", "system"], session.theme) });
         session.notices.set(
           "reply",
-          session.theme === "system" ? "Colours as the system has them" : `Colours: ${session.theme}`,
+          session.theme === "system" ? "Colours of the system" : `Colours: ${session.theme}`,
         );
       },
     },

@@ -22,7 +22,7 @@ export class Notices {
       signs[kind] ? h("strong", {}, signs[kind]) : null,
       h("span", {}, text),
       button ? h("button", { type: "button", class: "link", click: button.press }, button.words) : null,
-      iconButton("close", "put this line away", () => this.putAway(matter)),
+      iconButton("close", "dismiss", () => this.putAway(matter)),
     );
     this.lines.set(matter, { text, line });
     this.element.append(line);

@@ -349,7 +349,7 @@ export class Panel {
   private levels(pane: Pane, field: HTMLInputElement, value: string): void {
     const numbers = value.split(",").map((part) => Number(part.trim().replace("−", "-")));
     const wrong = value !== "" && !numbers.every(Number.isFinite);
-    this.fault(field, wrong ? "how many levels, or which: 1, 1.5, 2" : "");
+    this.fault(field, wrong ? "number of levels, or a list: 1, 1.5, 2" : "");
     if (wrong) return;
     const { factor } = this.scale(pane);
     const one = numbers.length === 1 && Number.isInteger(numbers[0]);
@@ -391,7 +391,7 @@ export class Panel {
   private number(field: HTMLInputElement, value: string, take: (value: number | null) => void): void {
     const number = value === "" ? null : Number(value.replace("−", "-").replace(",", "."));
     const wrong = number !== null && !Number.isFinite(number);
-    this.fault(field, wrong ? "a number, or nothing for automatic" : "");
+    this.fault(field, wrong ? "a number; empty: automatic" : "");
     if (!wrong) take(number);
   }
 
@@ -453,7 +453,7 @@ export class Panel {
         h(
           "p",
           { class: "quiet", id: "step-size-now" },
-          hello.can.step_size || "with a unit, as “2 fs”; a number alone is in the units of the run",
+          hello.can.step_size || "with a unit, as “2 fs”; plain numbers are in the units of the run",
         ),
       line(replay ? "Frames per second" : "Steps per frame", number),
       h("div", { class: "line" }, slider),
@@ -527,7 +527,7 @@ export class Panel {
               type: "button",
               id: "checkpoint",
               "aria-disabled": String(why !== ""),
-              title: why || "the whole state, to go on from",
+              title: why || "the whole state, to continue from",
               click: act("checkpoint"),
             },
             icon("save"),

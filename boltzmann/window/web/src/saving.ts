@@ -19,7 +19,7 @@ export async function savePicture(session: Session, pane: Pane): Promise<void> {
   if (pane.plot || !session.link.connected || session.hello?.recording) {
     const why = pane.plot
       ? "Curves of the table are saved as PNG here"
-      : "Without the window only what is on the screen can be saved, as PNG";
+      : "Without the window only the screen can be saved, as PNG";
     if (choice.format !== "png") session.notices.set("reply", `${why}.`, "warning");
     else pane.picture?.toBlob((png) => png && download(name, png), "image/png");
     return;

@@ -98,7 +98,7 @@ export class Session {
         this.tell("link", true);
       },
       broken: (seconds, attempt, reason) => {
-        const gone = attempt > 5 ? "The window is gone; the last picture stays" : "The connection to the window broke";
+        const gone = attempt > 5 ? "The window has closed; the last picture stays" : "The connection to the window broke";
         notices.set("link", `${gone}${reason ? ` (${reason})` : ""}. Next try in ${seconds} s.`, "warning", {
           words: "Try now",
           press: () => this.link.retry(),

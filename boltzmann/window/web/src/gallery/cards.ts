@@ -91,7 +91,7 @@ export function cardsPage(title: string, kind: Kind, entries: Entry[], search: s
     }
     found.textContent = wanted.length === 0 ? `${items.length} ${items.length === 1 ? kind.one : kind.many}` : `${count} of ${items.length}`;
     none.hidden = count > 0 || items.length === 0;
-    none.textContent = none.hidden ? "" : `No ${kind.one} speaks of “${input.value.trim()}”.`;
+    none.textContent = none.hidden ? "" : `No ${kind.one} matches “${input.value.trim()}”.`;
   };
   input.addEventListener("input", () => {
     look();

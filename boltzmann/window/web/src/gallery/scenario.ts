@@ -103,7 +103,7 @@ export class ScenarioPage {
       ),
       parameters.length > 0 ? h("h2", {}, "Parameters") : null,
       parameters.some(({ kind }) => kind === "quantity")
-        ? h("p", { class: "gallery-hint" }, "Write a quantity with its unit, “2 fs”; a number alone is in the scenario's own units. A key whose field is emptied is left out.")
+        ? h("p", { class: "gallery-hint" }, "Write quantities with a unit, “2 fs”; plain numbers are in the scenario's units. Clear a field to use the default.")
         : null,
       this.form,
       h("details", { class: "gallery-toml" }, h("summary", {}, "The scenario file (TOML)"), h("pre", { tabindex: 0 }, text)),
@@ -342,7 +342,7 @@ export class ScenarioPage {
   private tellState(): void {
     const changed = this.changed.length;
     const wrong = this.locallyWrong.length || this.errors;
-    const changes = changed === 0 ? "as it stands in the file" : `${changed} changed`;
+    const changes = changed === 0 ? "as in the file" : `${changed} changed`;
     this.state.textContent = wrong > 0 ? `${changes}, ${wrong === 1 ? "one error" : `${wrong} errors`}` : changes;
     this.allBack.hidden = changed === 0;
   }
