@@ -23,7 +23,7 @@ std::optional<FieldValue> read_field(Item const& item, Field const& field, std::
   };
   if (!item.is(Item::Kind::array)) {
     if (is_vector) {
-      read_vector(item, field.name, field.components, field.dimension, context);  // says what is wrong
+      read_vector(item, field.name, field.components, field.dimension, context);  // reports what is wrong
       return std::nullopt;
     }
     auto const value = read_quantity(item, field.name, field.dimension, context);

@@ -342,9 +342,9 @@ class ClassReader {
   void make() {
     if (!right()) return;
     // The texts are invalid for all ensembles of the class, or for none.
-    DerivedEnsemble const nobody("nobody", derived_, *particles_);
+    DerivedEnsemble const empty("empty", derived_, *particles_);
     try {
-      if (has_rates()) result_->rates.on(nobody);
+      if (has_rates()) result_->rates.on(empty);
     } catch (FormulaPartError const& error) {
       Item const* item = text_of(error.part);
       if (!item && !texts_.empty()) item = texts_.front().second;
@@ -371,9 +371,9 @@ class ClassReader {
     ClassVariant variant = base;
     variant.fields = fields();
     variant.source.newton = base.source.newton && derived_.driven.empty();
-    DerivedEnsemble const nobody("nobody", derived_, *particles_);
-    variant.row_bytes = base.row_bytes + (nobody.stride() - particles_->stride()) * sizeof(double) +
-                        derived_.driven.size() * nobody.rate_stride() * sizeof(double);
+    DerivedEnsemble const empty("empty", derived_, *particles_);
+    variant.row_bytes = base.row_bytes + (empty.stride() - particles_->stride()) * sizeof(double) +
+                        derived_.driven.size() * empty.rate_stride() * sizeof(double);
     variant.make = [base, derived](std::string name, std::size_t size) -> std::unique_ptr<AnyEnsemble> {
       auto const of_base = base.make("base", 1);
       return std::make_unique<DerivedEnsemble>(std::move(name), *derived, *of_base, size);

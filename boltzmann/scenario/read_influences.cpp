@@ -530,7 +530,7 @@ class InfluenceReader {
         for (double const number : parameter.second) what += fmt::format(" {}", number);
       return act(what, [&](AnyEnsemble& body) { install_external(*pairs_, *law_, parameters, body, nullptr); });
     }
-    if (law_->target != "Tracer") return;  // it carries nobody, as an exchange of vorticity
+    if (law_->target != "Tracer") return;  // it moves no particle, as an exchange of vorticity
     for (auto* source : {between_ ? a_ : nullptr, b_})
       if (source && source->particles->find_field("vorticity"))
         act(source->name, [&](AnyEnsemble& body) {

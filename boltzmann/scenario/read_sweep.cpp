@@ -306,7 +306,7 @@ void refuse_varied(Item const& document, Mistakes& mistakes) {
   Entry const* sweep = document.find("sweep");
   Entry const* vary = sweep && sweep->item.is(Item::Kind::table) ? sweep->item.find("vary") : nullptr;
   if (!vary || !vary->item.is(Item::Kind::table)) return;
-  Mistakes aside("");  // they are told when the sweep is read
+  Mistakes aside("");  // reported when the sweep is read
   for (auto const& key : read_sweep_values(sweep->item, aside).keys) {
     std::string const same = key.path == "run.time" ? "run.steps" : key.path == "run.steps" ? "run.time" : key.path;
     Item const* length = same == key.path ? nullptr : item_at(document, same);

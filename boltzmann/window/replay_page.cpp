@@ -251,7 +251,7 @@ class PageWriter {
     hello_["diagnoses"] = std::move(kept);
     hello_["drawings"] = json::object();  // nothing of a picture can be changed
     hello_["recording"] = true;
-    hello_["folder"] = "";  // of another machine, for most who look
+    hello_["folder"] = "";  // a path of another machine for most readers
     for (char const* what : {"step_size", "checkpoint", "quit"}) hello_["can"][what] = why_not;
   }
 

@@ -179,7 +179,7 @@ class Document:
             place = self._place(int(found[1]))
             below = int(found[1]) - len(self._top)
             lines.append(f"{place}: {found[3]}" if place else f"{self.file}:{below}:{found[2]}: {found[3]}")
-        return ScenarioErrors(list(dict.fromkeys(lines)))  # several of one array may be told alike
+        return ScenarioErrors(list(dict.fromkeys(lines)))  # elements of one array may have the same message
 
     def copy(self) -> "Document":
         other = Document(self.source, self.file)

@@ -49,7 +49,7 @@ def _end_runs() -> None:
             clock.sleep(0.001)
 
 
-# Arrays up to so many numbers stand in the text of a scenario; longer ones in a file beside it.
+# Arrays of up to this many numbers are written into the text of a scenario, longer ones into a file beside it.
 _numbers_in_text = 3000
 
 
@@ -126,7 +126,7 @@ class Simulation:
         put(self, "_thread_failure", None)
         put(self, "_progress_line", None)
 
-    # ---- what is said ----
+    # ---- messages ----
 
     def _table(self, name: str, given: Any, place: str) -> None:
         if isinstance(given, dict):
@@ -436,7 +436,7 @@ class Simulation:
         """Run in the background. Meanwhile arrays are copies, taken between two steps. wait() ends it."""
         if self._thread is not None and self._thread.is_alive():
             raise Error("start: the simulation runs already; wait() waits for its end")
-        self._core  # mistakes are told here
+        self._core  # raises for mistakes
         options.setdefault("progress", False)
 
         def go() -> None:

@@ -350,11 +350,11 @@ TEST(ProseOfSources, HasNoMoreForbiddenWordsThanBefore) {
   for (auto const& file : files_below("scenarios", {".toml"})) scenarios += forbidden_in(text_of(file)).size();
   for (auto const& file : files_below("boltzmann/window/web/src", {".ts"})) page += forbidden_in(text_of(file)).size();
   for (auto const& file : files_below("docs/notebooks", {".ipynb"})) other += forbidden_in(text_of(file)).size();
-  expect_at_most(744, comments, "comments of boltzmann/");
-  expect_at_most(116, texts, "texts of boltzmann/");
-  expect_at_most(26, python, "python/boltzmann/");
-  expect_at_most(10, scenarios, "scenarios/");
-  expect_at_most(31, page, "boltzmann/window/web/src/");
+  expect_at_most(5, comments, "comments of boltzmann/");
+  expect_at_most(0, texts, "texts of boltzmann/");
+  expect_at_most(0, python, "python/boltzmann/");
+  expect_at_most(0, scenarios, "scenarios/");
+  expect_at_most(1, page, "boltzmann/window/web/src/");
   expect_at_most(0, other, "docs/bzm.1 and docs/notebooks/");
 }
 
