@@ -181,14 +181,14 @@ std::string allowed(Option const& option) {
       return "true or false";
     case whole:
       return std::isinf(kind.range.high)
-                 ? fmt::format("a whole number, {} or more", in_full(kind.range.low))
-                 : fmt::format("a whole number, {} to {}", in_full(kind.range.low), in_full(kind.range.high));
+                 ? fmt::format("whole number, {} or more", in_full(kind.range.low))
+                 : fmt::format("whole number, {} to {}", in_full(kind.range.low), in_full(kind.range.high));
     case number:
       return range(quantity);
     case wholes:
       return "a whole number, or a list of them";
     case wholes_by_axis:
-      return "a whole number, or a list with one for each axis";
+      return "a whole number, or one for each axis";
     case numbers:
       return "a list, each " + range(quantity);
     case count_or_numbers:
@@ -197,13 +197,13 @@ std::string allowed(Option const& option) {
     case vector:
       return quantity + " along each axis";
     case ensembles:
-      return "the name of an ensemble, or a list";
+      return "ensemble name, or a list";
     case particles:
       return kind.words.front();
     case text:
       return kind.words.empty() ? "a text" : kind.words.front();
     case path:
-      return "the path of a file";
+      return "file path";
     case name:
       return "a name";
     case word: {

@@ -151,7 +151,7 @@ std::vector<Entry> const& table() {  // long: a table, an entry for each diagnos
     OptionKey const on_mesh{"quantity", "`\"field.x\"`, `\"potential\"` or `\"density\"`", "`\"field.x\"`"};
     OptionKey const pairs_of{"ensembles", "pairs within one ensemble, or between two", "all particles"};
     OptionKey const first_look{"since", "time of the first sample", "the start"};
-    OptionKey const rows{"every", "steps between samples; must divide into the rows' steps"};
+    OptionKey const rows{"every", "sample only at rows whose step is a multiple of this"};
     OptionKey const lags{"count", "longest lag, in samples", "`200`"};
     OptionKey const group_label{"label", "name in columns and files", "that of the ensemble"};
     OptionKey const moving{"subtract_drift", "measure relative to the mean of the ensemble"};

@@ -38,8 +38,8 @@ OptionTable const& diagnosis_options() {  // long: a table, a row for each key
             "`\"direct\"`: exact sums; `\"mesh\"`: all at once, with errors of 1e-5 of the particles, faster for many "
             "waves",
             "`\"direct\"`");
-    all.add("weight", &P::weight, weight_words(), "sampling of the averages");
-    all.add("range", &P::range, number(dimensions::length, positive), "range of the weight", "that of each particle");
+    all.add("weight", &P::weight, weight_words(), "kernel of the averages");
+    all.add("range", &P::range, number(dimensions::length, positive), "range of the kernel", "that of each particle");
     all.add("gamma", &P::gamma, number(dimensions::none, {1, __builtin_inf(), true}), "ratio of specific heats",
             "1 + 2/D");
     all.add("conductivity", &P::conductivity,

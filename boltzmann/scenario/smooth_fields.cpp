@@ -47,10 +47,11 @@ void check_smooth(Section& section, std::optional<double> volume, bool loadable,
                     "density: masses follow from it only where particles are loaded by \"fill\" or \"block\", so that "
                     "each has its volume; give 'mass'");
   if (!gives(section, "range") && !(reading.smooth.variable && volume))
-    reading.mistake(section.place(),
-                    fmt::format("smooth particles need a 'range', {}; add e.g. range = 3",
-                                reading.smooth.variable ? "from which variable_range starts"
-                                                        : "how far each is spread: about 3 times their spacing"));
+    reading.mistake(
+        section.place(),
+        fmt::format("smooth particles need a 'range', {}; add e.g. range = 3",
+                    reading.smooth.variable ? "from which variable_range starts"
+                                            : "the distance over which each is spread: about 3 times their spacing"));
 }
 
 void set_ranges(AnyEnsemble& particles, double volume, double spacings) {

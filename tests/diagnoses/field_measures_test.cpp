@@ -232,7 +232,7 @@ TEST(WaveSpectrum, RemembersAcrossARestartAndRefusesGaps) {
   }
   EXPECT_EQ(whole.state(), second.state());
   EXPECT_EQ(whole.power().power, second.power().power);
-  EXPECT_NE(message([&] { look(whole, fields, 2.05); }).find("equal times"), std::string::npos);
+  EXPECT_NE(message([&] { look(whole, fields, 2.05); }).find("intervals must be equal"), std::string::npos);
   auto broken = whole.state();
   broken.pop_back();
   EXPECT_NE(message([&] { second.restore(broken); }).find("another length"), std::string::npos);

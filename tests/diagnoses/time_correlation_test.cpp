@@ -138,7 +138,7 @@ TEST(TimeCorrelation, RefusesWhatItCantFollow) {
   MeanSquareDisplacement places({&atoms}, {});
   look(places, atoms, box, 0, 1);
   look(places, atoms, box, 1, 1);
-  EXPECT_NE(message([&] { look(places, atoms, box, 4, 1); }).find("equal times"), std::string::npos);
+  EXPECT_NE(message([&] { look(places, atoms, box, 4, 1); }).find("equal sampling intervals"), std::string::npos);
   atoms.resize(4);
   EXPECT_NE(message([&] { look(places, atoms, box, 2, 1); }).find("follows the 3 particles"), std::string::npos);
   EXPECT_THROW(VelocityAutocorrelation({&atoms}, {.ensembles = {"atom"}}), Error);

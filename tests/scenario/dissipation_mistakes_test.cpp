@@ -234,7 +234,7 @@ std::vector<Mistake> const rows{
     {"a method in the second",
      and_then(second + "method = \"simultaneous\"\n"),
      "49:10",
-     {"method", "the first of them", "line 25"}},
+     {"method", "set it in the first", "line 25"}},
     // Heat baths and equilibrations.
     {"bath between two",
      with("on = \"water\"", "on = \"water\"\nbetween = [\"water\", \"polymer\"]"),

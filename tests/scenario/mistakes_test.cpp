@@ -339,7 +339,7 @@ std::vector<Mistake> const rows{
      plus("[[output.pictures]]\nfile = \"picture.png\"\n"),
      "38:8",
      {"'picture.png' already"}},
-    {"on whom", with("on = \"atoms\"\n", ""), "25:1", {"on whom", "between", "by"}},
+    {"on whom", with("on = \"atoms\"\n", ""), "25:1", {"does not name its ensembles", "between", "by"}},
     {"on and between",
      with("on = \"atoms\"", "on = \"atoms\"\nbetween = [\"atoms\", \"atoms\"]"),
      "28:11",

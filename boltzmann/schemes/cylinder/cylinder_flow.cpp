@@ -31,11 +31,11 @@ OptionTable const& cylinder_options() {
     auto const vector_of = [](Vector<2> CylinderOptions::*member) {
       return [member](CylinderOptions& of) -> OptionPlace { return std::span((of.*member).component); };
     };
-    all.add("radius", &CylinderOptions::radius, number(dimensions::length, positive), "of the cylinder");
+    all.add("radius", &CylinderOptions::radius, number(dimensions::length, positive), "radius of the cylinder");
     all.add_of<CylinderOptions>("centre", vector_of(&CylinderOptions::centre), vector(dimensions::length),
-                                "of the cylinder", "0 on each axis");
+                                "centre of the cylinder", "0 on each axis");
     all.add_of<CylinderOptions>("stream", vector_of(&CylinderOptions::stream), vector(dimensions::velocity),
-                                "far from the cylinder", "none");
+                                "velocity far from the cylinder", "none");
     all.add("circulation", &CylinderOptions::circulation, number(dimensions::circulation), "around the cylinder");
     all.at("radius").needed = "0.5";
     return all;

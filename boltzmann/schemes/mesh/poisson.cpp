@@ -545,7 +545,7 @@ Words<FieldBoundary> const& field_boundary_words() {
       {{FieldBoundary::periodic, "periodic", "both ends"},
        {FieldBoundary::dirichlet, "dirichlet", "potential zero: a grounded conductor"},
        {FieldBoundary::neumann, "neumann", "no normal field: a plane of symmetry, an insulator"},
-       {FieldBoundary::open, "open", "both ends: empty space outside"}}};
+       {FieldBoundary::open, "open", "both ends: empty space beyond"}}};
   return all;
 }
 std::string to_string(FieldBoundary boundary) { return field_boundary_words().name(boundary); }

@@ -114,8 +114,9 @@ TransportKernelTable const& transport_kernels() {
 Words<DensityFrom> const& density_from_words() {
   static Words<DensityFrom> const all{
       "density",
-      {{DensityFrom::summation, "summation", "of the weights around it: mass is conserved exactly"},
-       {DensityFrom::continuity, "continuity", "of its past, as the sum would change: no deficit at free surfaces"},
+      {{DensityFrom::summation, "summation", "sum of the weights around a particle: mass is conserved exactly"},
+       {DensityFrom::continuity, "continuity",
+        "evolved from its past, as the sum would change: no deficit at free surfaces"},
        {DensityFrom::volumes, "volumes", "the same, where bodies of different densities touch"}}};
   return all;
 }
