@@ -463,7 +463,7 @@ TEST(WallImages, MistakesAreNamed) {
   EXPECT_EQ(message([&] { copy.build(2); }), "no error");
   box.open_end(0, End::high);
   EXPECT_EQ(message([&] { copy.build(2.5); }), "no error");
-  EXPECT_NE(message([&] { copy.components({}); }).find("rules for 0 numbers of a row, which has 20"),
+  EXPECT_NE(message([&] { copy.components({}); }).find("transformations for 0 numbers of a row, which has 20"),
             std::string::npos);
   auto wrong = rules<2>(e, 1);
   wrong[7] = {ImageRule::tensor, 0, 2};

@@ -109,7 +109,7 @@ WRONG = {
     "a step size that is a list": (lambda: setattr(ready(), "step_size", [1]), "quantity"),
     "threads that are a text": (lambda: setattr(ready(), "threads", "two"), "whole number"),
     "an observer that is none": (lambda: ready().every(5, 7), "function"),
-    "an observer every 0 steps": (lambda: ready().every(0, print), "1 or more"),
+    "an observer every 0 steps": (lambda: ready().every(0, print), "1 step or more"),
     "an observer that nobody knows": (lambda: ready().forget(print), "does not observe"),
     "a record of nothing": (lambda: ready().record("atoms"), "ensemble.field"),
     "a record of an unknown field": (lambda: ready().record("atoms.charge"), "charge"),

@@ -142,7 +142,7 @@ test("keys that a table could have, too, are folded away; one is set, checked, s
   assert.equal(await input(page, "run.skin").getAttribute("placeholder"), "automatic");
   assert.match(await field(page, "run.skin").locator(".gallery-hint").textContent(), /neighbour lists.* · at least 0 · in angstrom/);
   assert.match(await field(page, "run.cutoff").locator(".gallery-hint").textContent(), /^3 r0 · distance beyond which/); // the comment first
-  assert.match(await page.textContent("#gallery-state"), /as it stands/);
+  assert.match(await page.textContent("#gallery-state"), /as in the file/);
 
   // Long help is whole where the keyboard is, and moves nothing: a click would miss what it was meant for.
   const help = field(page, "run.cutoff").locator(".gallery-hint > span");
