@@ -68,7 +68,6 @@ RunReport run_with_progress(Recording& recording, std::uint64_t steps, ProgressO
                                             start = conserved(now);
                                             need_finite(now, start);
                                           }));
-  // a resumed run also has the samples of its earlier parts
   if (options.warnings && simulation.step() == 0)
     for (auto const& line : planned_warnings(recording, static_cast<std::int64_t>(steps)))
       fmt::print(stderr, "{}\n", line);

@@ -49,7 +49,7 @@ TEST_F(NoRanks, StartedByALauncher) {
   for (std::vector<char const*> const& names :
        {std::vector{"OMPI_COMM_WORLD_SIZE", "OMPI_COMM_WORLD_RANK"}, {"PMI_SIZE", "PMI_RANK"}}) {
     environment.set(names[0], "3"), environment.set(names[1], "0");
-    expect_refused(run(), "a launcher has started 3 processes of this, but there is no libboltzmann_mpi.so");
+    expect_refused(run(), "a launcher has started 3 processes of this program, but there is no libboltzmann_mpi.so");
     environment.set(names[1], "1");
     auto const silent = run();
     EXPECT_EQ(silent.status, 2);

@@ -292,7 +292,7 @@ TEST(ProgramRun, DamagedRunFilesAreMistakesWithAPlace) {
   }
   fs::remove(folder / "run/run.toml");
   auto const none = bzm({"render", "run", "-o", "no.png"}, folder.string());
-  EXPECT_NE(none.err.find("holds no run"), std::string::npos) << none.err;
+  EXPECT_NE(none.err.find("contains no run"), std::string::npos) << none.err;
   EXPECT_FALSE(fs::exists(folder / "no.png"));
 }
 

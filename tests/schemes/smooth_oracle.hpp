@@ -63,14 +63,25 @@ Tensor<D> best_fit(std::vector<Tensor<D>> const& units,
       for (std::size_t j = 0; j < n; ++j) rows[i][j] += w * dot(dot(units[i], r), dot(units[j], r));
       rows[i][n] += w * dot(dot(units[i], r), v);
     }
-  for (std::size_t i = 0; i < n; ++i)
+  // Gauss and Jordan, largest diagonal first; what neighbours do not determine stays zero.
+  double trace = 0;
+  for (std::size_t i = 0; i < n; ++i) trace += rows[i][i];
+  std::vector<bool> used(n);
+  for (std::size_t step = 0; step < n; ++step) {
+    std::size_t i = n;
+    for (std::size_t k = 0; k < n; ++k)
+      if (!used[k] && rows[k][k] > (i == n ? 1e-12 * trace : rows[i][i])) i = k;
+    if (i == n) break;
+    used[i] = true;
     for (std::size_t k = 0; k < n; ++k)
       if (k != i) {
         double const factor = rows[k][i] / rows[i][i];
         for (std::size_t j = 0; j <= n; ++j) rows[k][j] -= factor * rows[i][j];
       }
+  }
   Tensor<D> fit{};
-  for (std::size_t i = 0; i < n; ++i) fit += units[i] * (rows[i][n] / rows[i][i]);
+  for (std::size_t i = 0; i < n; ++i)
+    if (used[i]) fit += units[i] * (rows[i][n] / rows[i][i]);
   return fit;
 }
 /// All tensors with one component of 1; `turning`: the antisymmetric ones of two.
